@@ -1,6 +1,7 @@
 //! The library as a program that is built on it meets it.
 
 mod advice;
+mod custom_laws;
 mod examples;
 mod exports;
 mod observer;

@@ -41,6 +41,8 @@ impl<const N: usize> Dual<N> {
 }
 
 impl<const N: usize> Scalar for Dual<N> {
+    const HAS_DERIVATIVES: bool = true;
+
     #[inline]
     fn value(self) -> f64 {
         self.value

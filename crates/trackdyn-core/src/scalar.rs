@@ -24,6 +24,9 @@ pub trait Scalar:
     + MulAssign
     + 'static
 {
+    /// Whether it carries derivatives.
+    const HAS_DERIVATIVES: bool;
+
     /// The value without its derivatives.
     fn value(self) -> f64;
 
@@ -100,6 +103,8 @@ pub fn real(count: usize) -> f64 {
 }
 
 impl Scalar for f64 {
+    const HAS_DERIVATIVES: bool = false;
+
     #[inline]
     fn value(self) -> f64 {
         self

@@ -1,4 +1,5 @@
-//! Candidates: every effect of the catalogue, and its signature in this evidence.
+//! Candidates: every effect of the catalogue and laws of a user, and their signatures in this
+//! evidence.
 //!
 //! The signature of an effect is the prediction with it minus that without, each solved in full,
 //! since a law may not be differentiable at zero size. Where a law has shapes, directions or places
@@ -131,12 +132,15 @@ pub fn sizes(effect: EffectId) -> Vec<usize> {
         .collect()
 }
 
-/// All variants of all mechanisms tried on this evidence, except instruments that are free anyway.
-pub fn candidates(instruments: &[EffectId], evidence: &Evidence) -> Vec<Variant> {
-    EffectId::all()
-        .filter(|effect| !instruments.contains(effect) && !effect.card().is_form())
-        .flat_map(|effect| variants(effect, evidence))
-        .collect()
+/// All variants of the suspected mechanisms that are tried on this evidence, except instruments
+/// that are free anyway.
+pub fn candidates(
+    suspects: &[EffectId],
+    instruments: &[EffectId],
+    evidence: &Evidence,
+) -> Vec<Variant> {
+    let tried = |effect: &&EffectId| !instruments.contains(*effect) && !effect.card().is_form();
+    suspects.iter().filter(tried).flat_map(|effect| variants(*effect, evidence)).collect()
 }
 
 /// Variants of an effect tried on this evidence: none for effects of place or direction where there

@@ -26,8 +26,8 @@ use crate::uncertainty::{Interval, Level};
 use crate::verdict::Verdict;
 use crate::weighted::Weighted;
 use std::sync::Arc;
-use trackdyn_model::VehicleFile;
 use trackdyn_model::effect::{Card, Parameter, Role, Symmetry};
+use trackdyn_model::{EffectId, VehicleFile};
 
 /// Options of a diagnosis.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,6 +36,9 @@ pub struct Options {
     pub held_out: Vec<usize>,
     /// Number of bootstrap draws, and the seed of all random numbers.
     pub resampling: Resampling,
+    /// Laws of a user that are candidates beside the catalogue. Those that the vehicle file has
+    /// are candidates anyway.
+    pub laws: Vec<EffectId>,
 }
 
 /// Result of a diagnosis.

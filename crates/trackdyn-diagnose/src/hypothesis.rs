@@ -197,7 +197,7 @@ pub fn with_friction(vehicle: &Vehicle, level: f64) -> Vehicle {
 /// # Panics
 /// Never: typical sizes are in range.
 pub fn typical(effect: EffectId) -> ActiveEffect {
-    ActiveEffect::new(effect.name(), &[]).expect("an effect of the catalogue")
+    ActiveEffect::of(effect, &[]).expect("typical sizes are in range")
 }
 
 /// An effect with sizes at a share of the typical ones, and the typical values of all other
@@ -231,7 +231,7 @@ pub fn with_values(effect: &ActiveEffect, values: &[f64]) -> ActiveEffect {
             (parameter.key, value.clamp(parameter.range[0], parameter.range[1]))
         })
         .collect();
-    ActiveEffect::new(card.id, &settings).expect("values within the ranges of the card")
+    ActiveEffect::of(effect.effect(), &settings).expect("values within the ranges of the card")
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ pub use error::EffectError;
 pub use id::EffectId;
 
 use crate::contact::ShearStress;
+use crate::custom::ActiveLaw;
 use crate::effect::{Card, Effect, Nature, Term};
 use crate::pipeline::{Drive, Ground, RigidBody, Sensor, Site, Situation};
 use crate::vehicle::Vehicle;

@@ -5,7 +5,8 @@
 //! - [`vehicle`]: mass, running gear, centre of gravity, friction; [`vehicle_file`]: the file.
 //! - [`contact`]: friction of a patch, in closed form or by quadrature.
 //! - [`pipeline`]: the values passed between the stages of the balance of forces.
-//! - [`effect`]: the trait of an effect; [`effects`]: the catalogue, one file each.
+//! - [`effect`]: the trait of an effect; [`effects`]: the catalogue, one file each; [`custom`]:
+//!   laws of a user beside it.
 //! - [`model`]: a vehicle with its effects, and the balance of forces at a motion.
 //!
 //! Motion:
@@ -23,6 +24,7 @@
 #[cfg(test)]
 mod conformance;
 pub mod contact;
+pub mod custom;
 pub mod effect;
 pub mod effects;
 mod forces;

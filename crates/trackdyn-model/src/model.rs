@@ -3,7 +3,8 @@
 use crate::contact::pressure::Footprint;
 use crate::contact::quadrature;
 use crate::contact::{Bearing, Extent, Patch, Pressure, Resolution, ShearStress, friction_wrench};
-use crate::effects::Effects;
+use crate::custom::{ActiveLaw, seen_at};
+use crate::effects::{ActiveEffect, Effects};
 use crate::pipeline::{Circumstance, Drive, Ground, Motion, RigidBody, Sensor, Site, Situation};
 use crate::vehicle::Vehicle;
 use trackdyn_core::{PerSide, Scalar, Side, Wrench};
@@ -30,6 +31,8 @@ pub struct Model {
     sensor: Sensor,
     /// Effects that change the shear stress.
     shear_laws: Effects,
+    /// Laws of a user among them, which are asked for all points at once.
+    custom_laws: Vec<ActiveLaw>,
     resolution: Resolution,
 }
 
@@ -79,9 +82,22 @@ impl Model {
         let patches = PerSide::from_fn(|side| vehicle.patches(side));
         let footprint = Footprint::of(&patches.left);
         let extent = PerSide::from_fn(|side| footprint.extent(&patches[side]));
-        let shear_laws = effects.iter().filter(|effect| effect.card().shears()).cloned().collect();
+        let shearing = || effects.iter().filter(|effect| effect.card().shears());
+        let custom_laws = shearing().filter_map(ActiveEffect::custom).cloned().collect();
+        let shear_laws = shearing().filter(|effect| effect.custom().is_none()).cloned().collect();
         let resolution = Resolution::default();
-        Self { vehicle, effects, patches, footprint, extent, drive, sensor, shear_laws, resolution }
+        Self {
+            vehicle,
+            effects,
+            patches,
+            footprint,
+            extent,
+            drive,
+            sensor,
+            shear_laws,
+            custom_laws,
+            resolution,
+        }
     }
 
     /// The model with another resolution of the shear-stress quadrature.
@@ -177,7 +193,7 @@ impl Model {
                 &motion.slip[side],
                 self.resolution,
             );
-            if !self.shear_laws.is_empty() {
+            if !(self.shear_laws.is_empty() && self.custom_laws.is_empty()) {
                 wrench += self.shear_departure(&situation, side, pressed, &pressure);
             }
             wrench
@@ -239,9 +255,10 @@ impl Model {
         &self,
         situation: &Situation<S>,
         side: Side,
-        pressed: impl Iterator<Item = Patch<S>>,
+        pressed: impl Iterator<Item = Patch<S>> + Clone,
         pressure: &Pressure<S>,
     ) -> Wrench<S> {
+        let mut custom = self.custom_factors(situation, side, pressed.clone(), pressure);
         quadrature::departure_wrench(
             pressed,
             situation.ground.friction[side],
@@ -254,8 +271,43 @@ impl Model {
                 for effect in &self.shear_laws {
                     effect.shear(&site, &mut stress);
                 }
+                if let Some(factors) = custom.next() {
+                    stress.scale_each(factors);
+                }
                 stress
             },
         )
+    }
+
+    /// Factors on friction by laws of a user, at the points of the quadrature in their order.
+    fn custom_factors<S: Scalar>(
+        &self,
+        situation: &Situation<S>,
+        side: Side,
+        pressed: impl Iterator<Item = Patch<S>>,
+        pressure: &Pressure<S>,
+    ) -> std::vec::IntoIter<[S; 2]> {
+        if self.custom_laws.is_empty() {
+            return Vec::new().into_iter();
+        }
+        let mut seen = Vec::new();
+        quadrature::departure_wrench(
+            pressed,
+            situation.ground.friction[side],
+            pressure,
+            &situation.motion.slip[side],
+            self.resolution,
+            |patch, slip| {
+                seen.push(seen_at(&Site { situation, side, patch, pressure, slip }));
+                ShearStress::base()
+            },
+        );
+        let mut product = vec![[S::from(1.0); 2]; seen.len()];
+        for law in &self.custom_laws {
+            for (product, factors) in product.iter_mut().zip(law.factors(&seen)) {
+                *product = [product[0] * factors[0], product[1] * factors[1]];
+            }
+        }
+        product.into_iter()
     }
 }

@@ -12,7 +12,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use trackdyn::crates::core::document::Document;
 use trackdyn::diagnose::Prepared;
-use trackdyn::{DiagnoseSettings, HeldOut, MethodSettings, OpenQuestions, Provenance, Resampling};
+use trackdyn::{
+    DiagnoseSettings, EffectId, HeldOut, MethodSettings, OpenQuestions, Provenance, Resampling,
+};
 
 /// What a model of the robot lacks.
 #[pyclass(frozen, module = "trackdyn._trackdyn")]
@@ -30,6 +32,8 @@ pub struct Keywords {
     seed: u64,
     /// The text of a settings file, and the name that errors mention it by.
     settings: Option<(String, String)>,
+    /// Ids of laws of a user that are candidates too.
+    laws: Vec<String>,
 }
 
 impl Keywords {
@@ -42,6 +46,7 @@ impl Keywords {
         if !(1000..=100_000).contains(&self.draws) {
             return Err(refused("draws", self.draws, "expected 1000 to 100000"));
         }
+        let laws = self.laws.iter().map(|id| id.parse::<EffectId>()).collect::<Result<_, _>>();
         let method = self.settings.map(|(name, text)| {
             MethodSettings::from_document(&Document::new(name, text))
                 .map_err(|error| raised(trackdyn::Error::from(error)))
@@ -50,6 +55,7 @@ impl Keywords {
             held_out,
             resampling: Resampling { draws: self.draws, seed: self.seed },
             method: method.transpose()?.unwrap_or_default(),
+            laws: laws.map_err(raised)?,
         })
     }
 }

@@ -1,8 +1,10 @@
 //! What goes wrong, raised by kind in the words of the library.
 
+use crate::laws::exception;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use trackdyn::Error;
+use trackdyn::law::Cause;
 
 /// The module with the classes of errors.
 const MODULE: &str = "trackdyn._errors";
@@ -31,7 +33,9 @@ fn class(error: &Error) -> &'static str {
         | Error::ComparedWithItself { .. }
         | Error::PointsNotAlone => "RecordingError",
         Error::HeldOut { .. } | Error::AllHeldOut | Error::NoRunsToHoldOut { .. } => "HeldOutError",
-        Error::Effect(_) | Error::EffectTwice { .. } => "EffectError",
+        Error::Effect(_) | Error::EffectTwice { .. } | Error::Definition(_) | Error::Law(_) => {
+            "EffectError"
+        }
         Error::CentreOfGravity(_)
         | Error::NoVehicle { .. }
         | Error::Vehicle(_)
@@ -55,9 +59,15 @@ fn class(error: &Error) -> &'static str {
     }
 }
 
-/// The exception of an error of the library.
+/// The exception of an error of the library; of a law in Python that raised one, that one.
 pub fn raised(error: impl Into<Error>) -> PyErr {
     let error = error.into();
+    if let Error::Law(failure) = &error
+        && let Cause::Raised(cause) = &failure.cause
+        && let Some(exception) = exception(&**cause)
+    {
+        return exception;
+    }
     with_class(class(&error), &error.to_string(), error.setting())
 }
 

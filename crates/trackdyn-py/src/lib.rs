@@ -14,6 +14,7 @@ mod figure;
 mod files;
 mod identification;
 mod inspection;
+mod laws;
 mod map;
 mod motion_table;
 mod odometry;
@@ -41,6 +42,8 @@ mod _trackdyn {
     use super::identification::{Identification, identify};
     #[pymodule_export]
     use super::inspection::inspect;
+    #[pymodule_export]
+    use super::laws::{law_arguments, register_law, taped};
     #[pymodule_export]
     use super::map::{IcrMap, icr_map};
     #[pymodule_export]

@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
 use trackdyn::crates::core::document::Document;
-use trackdyn::{RunningGear, VehicleSketch};
+use trackdyn::{ActiveEffect, EffectId, RunningGear, VehicleSketch};
 
 /// A vehicle, and the effects that its model has.
 #[pyclass(frozen, module = "trackdyn._trackdyn")]
@@ -93,6 +93,13 @@ impl Vehicle {
     #[getter]
     fn effects(&self) -> Vec<String> {
         self.inner.effects().iter().map(ToString::to_string).collect()
+    }
+
+    /// Ids of the laws of a user among them.
+    #[getter]
+    fn laws(&self) -> Vec<&'static str> {
+        let effects = self.inner.effects().iter().map(ActiveEffect::effect);
+        effects.filter(|effect| effect.custom().is_some()).map(EffectId::name).collect()
     }
 
     /// The text of its file.

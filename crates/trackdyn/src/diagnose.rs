@@ -9,6 +9,7 @@ pub use claim::{Claim, Size};
 pub use held_out::{HeldOut, every_fourth};
 
 use crate::change::Folder;
+use crate::law::guarded;
 use crate::recording::joined;
 use crate::viewer::{self, Layers};
 use crate::{
@@ -16,8 +17,8 @@ use crate::{
 };
 use std::path::{Path, PathBuf};
 use trackdyn_diagnose::{DiagnosisFile, Evidence, Options, Resampling, Status};
-use trackdyn_model::VehicleFile;
 use trackdyn_model::kinematics::Source;
+use trackdyn_model::{EffectId, VehicleFile};
 use trackdyn_recording::RunList;
 use trackdyn_report::{Figure, Subject, diagnosis_figures, diagnosis_html};
 
@@ -39,6 +40,9 @@ pub struct DiagnoseSettings {
     pub resampling: Resampling,
     /// All numbers that decide an answer: thresholds, priors, step sizes.
     pub method: MethodSettings,
+    /// Laws of a user that are candidates beside the catalogue, see [`crate::law`]. Those of
+    /// the vehicle are candidates anyway.
+    pub laws: Vec<EffectId>,
 }
 
 /// Diagnoses recordings of one robot: where its model and they differ, and what physics was left
@@ -113,7 +117,11 @@ impl Prepared {
             poses: of_poses(&recording),
             joined: joined.iter().filter_map(of_poses).collect(),
             evidence,
-            options: Options { held_out, resampling: settings.resampling },
+            options: Options {
+                held_out,
+                resampling: settings.resampling,
+                laws: settings.laws.clone(),
+            },
             vehicle: vehicle.clone(),
             name: recording.name().to_owned(),
             place: recording.place(),
@@ -139,20 +147,19 @@ impl Prepared {
     ///
     /// # Errors
     /// [`Error::Diagnose`] for driving without turns, or a vehicle that cannot move as recorded;
-    /// [`Error::Cancelled`].
+    /// [`Error::Law`], [`Error::Cancelled`].
     pub fn run(self, observer: &Observer) -> Result<Diagnosis, Error> {
         let progress = |at: trackdyn_diagnose::Progress| {
             observer(Progress { stage: at.stage.name(), done: at.done, total: at.total })
         };
-        let found = trackdyn_diagnose::diagnose(
-            &self.evidence,
-            self.vehicle.file(),
-            &self.options,
-            &progress,
-        );
-        let found = found.map_err(|cause| match cause {
-            trackdyn_diagnose::Error::Cancelled => Error::Cancelled,
-            cause => Error::Diagnose { recording: self.place.clone(), cause },
+        let Self { evidence, vehicle, options, place, .. } = &self;
+        let found = guarded(|| {
+            trackdyn_diagnose::diagnose(evidence, vehicle.file(), options, &progress).map_err(
+                |cause| match cause {
+                    trackdyn_diagnose::Error::Cancelled => Error::Cancelled,
+                    cause => Error::Diagnose { recording: place.clone(), cause },
+                },
+            )
         })?;
         let source = Some(self.source_of_correction());
         let corrected = VehicleFile { source, ..found.answer.corrected.clone() }.into();
@@ -276,9 +283,11 @@ impl Diagnosis {
             name: &self.of.name,
             caption: &caption,
         };
-        let figures = diagnosis_figures(&subject);
-        let html = diagnosis_html(&subject, &figures)?;
-        Ok(Report { figures, html })
+        guarded(|| {
+            let figures = diagnosis_figures(&subject);
+            let html = diagnosis_html(&subject, &figures)?;
+            Ok(Report { figures, html })
+        })
     }
 
     /// What Foxglove, Rerun and PlotJuggler show of it: paths and ICRs as observed, as the vehicle
@@ -288,7 +297,7 @@ impl Diagnosis {
     /// # Errors
     /// [`Error::NoMotion`] of a table of steady operating points.
     pub fn layers(&self, provenance: &Provenance) -> Result<Layers, Error> {
-        layers::of(self, provenance)
+        guarded(|| layers::of(self, provenance))
     }
 
     /// Writes `diagnosis.mcap` with these [layers](Self::layers), and layouts beside it.

@@ -3,6 +3,7 @@
 mod document;
 
 use crate::change::Folder;
+use crate::law::guarded;
 use crate::progress::Counter;
 use crate::{Change, Error, Figure, Observer, Parameters, Provenance, Vehicle, unobserved};
 use std::path::Path as FilePath;
@@ -90,11 +91,13 @@ impl Prepared {
         if tracker.speed > tracker.belt_speed {
             return Err(Error::TooFast { speed, most: tracker.belt_speed });
         }
+        let table = || Ok(MotionTable::of(&vehicle.model(), tracker.belt_speed));
+        let forces = forces.then(|| guarded(table)).transpose()?;
         Ok(Self {
             vehicle: vehicle.clone().with_inertia(inertia),
             path: path.clone(),
             parameters: parameters.to_vec(),
-            forces: forces.then(|| MotionTable::of(&vehicle.model(), tracker.belt_speed)),
+            forces,
             tracker,
             estimate,
         })
@@ -152,8 +155,9 @@ impl Prepared {
             let _ = counter.reach("drive", part);
         };
         let (path, tracker) = (&self.path, &self.tracker);
-        let journey =
-            trackdyn_drive::drive(&mut robot, path, tracker, steering, &options, &progress)?;
+        let mut drive =
+            || trackdyn_drive::drive(&mut robot, path, tracker, steering, &options, &progress);
+        let journey = guarded(|| Ok(drive()?))?;
         counter.check()?;
         Ok(journey)
     }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use trackdyn_core::document::DocumentError;
 use trackdyn_core::output::OutputError;
 use trackdyn_drive::sensors::Preset;
+use trackdyn_model::custom::{DefinitionError, Failure};
 use trackdyn_model::{EffectError, VehicleError};
 use trackdyn_recording::RunList;
 
@@ -153,6 +154,12 @@ pub enum Error {
     /// An effect that the catalogue does not have, or not so.
     #[error(transparent)]
     Effect(#[from] EffectError),
+    /// A law of a user that cannot be defined so.
+    #[error(transparent)]
+    Definition(#[from] DefinitionError),
+    /// A law of a user that failed.
+    #[error(transparent)]
+    Law(#[from] Box<Failure>),
     /// An effect that is given twice.
     #[error("effect {id}: given twice: expected once, with all its parameters")]
     EffectTwice {

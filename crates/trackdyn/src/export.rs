@@ -7,6 +7,7 @@ pub use robot::{BaseFrame, RobotWheels, WheelChoices};
 
 use crate::change::Folder;
 use crate::kinematics::source_of;
+use crate::law::guarded;
 use crate::{Change, Error, Parameters, Provenance, Vehicle};
 use std::path::Path;
 use trackdyn_core::Side;
@@ -246,7 +247,7 @@ impl Export {
 /// ```
 ///
 /// # Errors
-/// [`Error::FastestSpeed`] for what is no speed of a robot.
+/// [`Error::FastestSpeed`] for what is no speed of a robot, [`Error::Law`].
 pub fn motion_table(
     vehicle: &Vehicle,
     fastest: f64,
@@ -270,7 +271,7 @@ pub fn motion_table(
     let effects = vehicle.effects().iter();
     let of_speeds = effects.clone().filter(|effect| is_alone(effect)).cloned();
     let model = vehicle.clone().with_effects(of_speeds.collect()).model();
-    let table = MotionTable::of(&model, fastest);
+    let table = guarded(|| Ok(MotionTable::of(&model, fastest)))?;
     let left_out = LeftOut {
         effects: effects.filter(is_left_out).map(ToString::to_string).collect(),
         lag: model.drive().mean_lag(),
@@ -312,7 +313,7 @@ pub fn simulator(
     simulator: Simulator,
     provenance: &Provenance,
 ) -> Result<TextFile, Error> {
-    let robot = Robot::of(vehicle.file())?;
+    let robot = guarded(|| Ok(Robot::of(vehicle.file())?))?;
     let provenance = of_vehicle(vehicle, provenance);
     Ok(match simulator {
         Simulator::Gazebo => trackdyn_export::sdf::model(&robot, &provenance),

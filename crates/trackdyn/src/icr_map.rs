@@ -1,6 +1,7 @@
 //! The ICR map of a vehicle: its stationary motion over track speeds.
 
 use crate::change::Folder;
+use crate::law::guarded;
 use crate::progress::Counter;
 use crate::{Change, Error, Figure, Observer, Parameters, Provenance, Vehicle, unobserved};
 use std::path::Path;
@@ -45,16 +46,16 @@ pub struct IcrMap {
 /// Solves the ICR map of a vehicle.
 ///
 /// # Panics
-/// Never: nobody stops it.
+/// Only where a law of a user fails, see [`IcrMap::solve`].
 pub fn icr_map(vehicle: &Vehicle, settings: &MapSettings) -> IcrMap {
-    IcrMap::solve(vehicle, settings, &unobserved).expect("nobody stops it")
+    IcrMap::solve(vehicle, settings, &unobserved).expect("laws that do not fail")
 }
 
 impl IcrMap {
     /// Solves a map, on all threads, observed: a part is a pair of track speeds.
     ///
     /// # Errors
-    /// [`Error::Cancelled`].
+    /// [`Error::Law`], [`Error::Cancelled`].
     pub fn solve(
         vehicle: &Vehicle,
         settings: &MapSettings,
@@ -63,8 +64,11 @@ impl IcrMap {
         let MapSettings { grid, circumstance } = settings;
         let counter = Counter::new(observer, grid.points() * grid.points());
         let progress = |pairs| counter.advance("map", pairs);
-        let solved = Solved::solve_unless_stopped(&vehicle.model(), *grid, circumstance, &progress);
-        let solved = solved.ok_or(Error::Cancelled)?;
+        let solved = guarded(|| {
+            let model = vehicle.model();
+            let solved = Solved::solve_unless_stopped(&model, *grid, circumstance, &progress);
+            solved.ok_or(Error::Cancelled)
+        })?;
         let statistics = solved.statistics();
         Ok(Self { solved, vehicle: vehicle.clone(), statistics })
     }

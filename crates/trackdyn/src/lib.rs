@@ -69,7 +69,8 @@
 //!
 //! Axes are those of REP-103 (x forward, y left), but for the ICRs, which have those of the paper
 //! (x right, y forward). Units are SI, angles in radians. [`effects()`] lists the physics that a
-//! [`Vehicle`] can have beyond the base model; the crates below are re-exported in [`crates`].
+//! [`Vehicle`] can have beyond the base model, and [`law`] adds to it; the crates below are
+//! re-exported in [`crates`].
 
 mod change;
 mod document;
@@ -90,6 +91,7 @@ pub mod drive;
 pub mod export;
 pub mod identify;
 pub mod inspect;
+pub mod law;
 pub mod odometry;
 pub mod plan;
 pub mod recording;
@@ -134,7 +136,7 @@ pub use trackdyn_diagnose::{Resampling, Settings as MethodSettings, Status};
 pub use trackdyn_drive::{Path, Sensors};
 pub use trackdyn_model::effect::{Card, Parameter, Stage, Symmetry, Term};
 pub use trackdyn_model::vehicle::RunningGear;
-pub use trackdyn_model::{ActiveEffect, Circumstance, Effects, Grid, Kinematics};
+pub use trackdyn_model::{ActiveEffect, Circumstance, EffectId, Effects, Grid, Kinematics};
 pub use trackdyn_recording::RunList;
 pub use trackdyn_report::Figure;
 

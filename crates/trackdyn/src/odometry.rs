@@ -9,6 +9,7 @@ mod runs_table;
 pub use advice::{Advice, Compared};
 
 use crate::change::Folder;
+use crate::law::guarded;
 use crate::viewer::{self, Layers};
 use crate::{Change, Error, Figure, Gauge, Parameters, Part, Provenance, Recording};
 use std::collections::BTreeSet;
@@ -68,7 +69,7 @@ struct Replayed {
 ///
 /// # Errors
 /// [`Error::NoMotion`] for a table of steady operating points, [`Error::TooLarge`] for parameters
-/// that no robot has, [`Error::Runs`], [`Error::Time`], [`Error::Odometry`].
+/// that no robot has, [`Error::Runs`], [`Error::Time`], [`Error::Odometry`], [`Error::Law`].
 pub fn odometry(
     recording: &Recording,
     gauge: impl Into<Gauge>,
@@ -76,6 +77,15 @@ pub fn odometry(
     settings: &OdometrySettings,
 ) -> Result<Odometry, Error> {
     let gauge = gauge.into();
+    guarded(|| replay(recording, gauge, parameters, settings))
+}
+
+fn replay(
+    recording: &Recording,
+    gauge: Gauge,
+    parameters: &[Parameters],
+    settings: &OdometrySettings,
+) -> Result<Odometry, Error> {
     recording.expect_positions()?;
     let corrected = recording.corrected(settings.gyroscope, settings.tau);
     let motion = corrected.expect_positions()?;

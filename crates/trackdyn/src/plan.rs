@@ -1,6 +1,7 @@
 //! The driving that tells apart what a diagnosis could not.
 
 use crate::change::Folder;
+use crate::law::guarded;
 use crate::progress::Counter;
 use crate::{Change, Diagnosis, Error, MethodSettings, Observer, Provenance, Vehicle, unobserved};
 use std::path::Path;
@@ -122,12 +123,13 @@ impl Plan {
     ) -> Result<Self, Error> {
         let counter = Counter::new(observer, STAGES.len());
         let progress = |stage| counter.advance(stage, 1);
-        let found =
-            trackdyn_diagnose::plan(questions.questions(), vehicle.file(), settings, &progress);
         let name = vehicle.name().to_owned();
-        let found = found.map_err(|cause| match cause {
-            trackdyn_diagnose::Error::Cancelled => Error::Cancelled,
-            cause => Error::Plan { vehicle: name.clone(), cause },
+        let found = guarded(|| {
+            trackdyn_diagnose::plan(questions.questions(), vehicle.file(), settings, &progress)
+                .map_err(|cause| match cause {
+                    trackdyn_diagnose::Error::Cancelled => Error::Cancelled,
+                    cause => Error::Plan { vehicle: name.clone(), cause },
+                })
         })?;
         let made_from = format!("{}{}", questions.document.text(), vehicle.to_toml());
         Ok(Self {

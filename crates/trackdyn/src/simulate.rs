@@ -10,6 +10,7 @@ pub use driving::Driving;
 pub use ground::{Ground, Model, Motion};
 
 use crate::change::Folder;
+use crate::law::guarded;
 use crate::progress::Counter;
 use crate::{Change, Error, Observer, Provenance, Recording, Vehicle, unobserved};
 use rayon::prelude::*;
@@ -92,7 +93,7 @@ impl Prepared {
     /// for settings that a file has no use for.
     pub fn new(vehicle: &Vehicle, settings: &SimulateSettings) -> Result<Self, Error> {
         let vehicle = vehicle.clone().with_inertia(settings.inertia);
-        let schedules = schedules(&vehicle, settings)?;
+        let schedules = guarded(|| schedules(&vehicle, settings))?;
         check_duration(&schedules, settings.longest_step)?;
         Ok(Self { vehicle, settings: settings.clone(), schedules })
     }
@@ -115,7 +116,7 @@ impl Prepared {
     ///
     /// # Errors
     /// [`Error::Run`] for a run that cannot be driven or observed, of several the first;
-    /// [`Error::Cancelled`].
+    /// [`Error::Law`], [`Error::Cancelled`].
     pub fn run_on(&self, ground: &dyn Ground, observer: &Observer) -> Result<Simulation, Error> {
         // Laws that know the time begin where the recording begins, whatever its clock shows.
         let starts = self.schedules.iter().map(|run| run.schedule.span()[0]);
@@ -123,7 +124,7 @@ impl Prepared {
         let counter = Counter::new(observer, self.schedules.len());
         let one = |run: &ScheduledRun| -> Result<Driven, Error> {
             counter.check()?;
-            let driven = Driven::new(ground, run, origin, &self.settings);
+            let driven = guarded(|| Driven::new(ground, run, origin, &self.settings));
             counter.advance("runs", 1).is_continue().then_some(driven).ok_or(Error::Cancelled)?
         };
         let runs: Vec<Result<Driven, Error>> = self.schedules.par_iter().map(one).collect();

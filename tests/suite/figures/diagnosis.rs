@@ -29,7 +29,11 @@ struct Case {
 
 impl Case {
     fn new(evidence: &Evidence, vehicle: VehicleFile, held_out: Vec<usize>) -> Self {
-        let options = Options { held_out, resampling: Resampling { draws: 100, seed: 1 } };
+        let options = Options {
+            held_out,
+            resampling: Resampling { draws: 100, seed: 1 },
+            ..Options::default()
+        };
         let diagnosis = diagnose(evidence, &vehicle, &options, &unobserved).expect("a diagnosis");
         let source = Source {
             command: "trackdyn diagnose <a&b>".to_owned(),

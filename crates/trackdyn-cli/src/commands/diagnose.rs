@@ -72,6 +72,7 @@ pub fn run(options: &Options) -> Outcome {
         held_out: held_out(options)?,
         resampling: Resampling { draws: options.draws as usize, seed: options.seed },
         method: method(options)?,
+        laws: Vec::new(),
     };
     let prepared = Prepared::new(&recordings, &vehicle, &settings)?;
     prepare_folder(&options.out)?;

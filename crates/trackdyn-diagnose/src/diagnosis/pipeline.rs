@@ -15,8 +15,9 @@ use crate::proposal::{Unexplained, propose};
 use crate::search::Search;
 use crate::verdict::Constants;
 use crate::weighted::Weighted;
+use std::collections::BTreeSet;
 use std::sync::Arc;
-use trackdyn_model::VehicleFile;
+use trackdyn_model::{ActiveEffect, EffectId, VehicleFile};
 
 /// Stages in one round of search and verdicts.
 const ROUND: usize = searched::STAGES_SHARPENED + 1;
@@ -33,6 +34,13 @@ pub struct Examination {
     pub search: Search,
     /// Effects that act as constant ICRs.
     pub constants: Constants,
+}
+
+/// Candidates: the catalogue, then the laws of a user that are given or that the file has.
+fn suspects(laws: &[EffectId], file: &VehicleFile) -> Vec<EffectId> {
+    let filed = file.effects.iter().map(ActiveEffect::effect);
+    let own = filed.chain(laws.iter().copied()).filter(|effect| effect.custom().is_some());
+    EffectId::all().chain(own.collect::<BTreeSet<_>>()).collect()
 }
 
 /// Diagnoses evidence. `observer` receives the progress and may cancel.
@@ -60,6 +68,7 @@ pub fn examine(
     observer: &Observer,
 ) -> Result<Examination, Error> {
     let resampling = options.resampling;
+    let suspects = suspects(&options.laws, file);
     let watch = &Watch::new(observer, STAGES);
 
     // Evidence: runs to fit, and held-out runs.
@@ -77,7 +86,7 @@ pub fn examine(
     // noise was overestimated. Then the verdicts.
     let judged_in = |seen: &Weighted| -> Result<Judged, Error> {
         let base = base.refitted(seen);
-        let searched = Searched::sharpened(seen, base, watch)?;
+        let searched = Searched::sharpened(seen, base, &suspects, watch)?;
         let judged = || Judged::of(searched, file, resampling, watch);
         watch.try_stage(Stage::Verdicts, judged).map_err(Error::from)
     };

@@ -9,7 +9,7 @@ use crate::settings;
 use crate::surface::Surface;
 use nalgebra::Vector3;
 use rayon::prelude::*;
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
 use trackdyn_core::{PerSide, Plant, Pose, Side, Trajectory, Twist};
@@ -196,7 +196,9 @@ impl Inertia {
                 [self.model.effects(), effects].map(|effects| value(effects, effect, place));
             (Unknown::Effect(effect, place), there - here)
         };
-        let of_effects = EffectId::all().flat_map(|effect| {
+        let both = self.model.effects().iter().chain(effects).map(ActiveEffect::effect);
+        let both: BTreeSet<EffectId> = both.collect();
+        let of_effects = both.into_iter().flat_map(|effect| {
             (0..effect.card().parameters.len()).map(move |place| change(effect, place))
         });
         level.chain(cog).chain(of_effects).filter(|(_, change)| *change != 0.0).collect()

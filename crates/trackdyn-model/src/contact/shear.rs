@@ -21,6 +21,12 @@ impl<S: Scalar> ShearStress<S> {
     /// Multiplies both factors.
     #[inline]
     pub fn scale(&mut self, factor: S) {
-        self.factor = self.factor.map(|f| f * factor);
+        self.scale_each([factor; 2]);
+    }
+
+    /// Multiplies the factors across and along the track.
+    #[inline]
+    pub fn scale_each(&mut self, [across, along]: [S; 2]) {
+        self.factor = [self.factor[0] * across, self.factor[1] * along];
     }
 }

@@ -2,12 +2,13 @@
 
 use super::{CATALOGUE, EffectError, EffectId, Law};
 use crate::contact::ShearStress;
+use crate::custom::ActiveLaw;
 use crate::effect::{Card, Parameter, Symmetry};
 use crate::pipeline::{Drive, Ground, RigidBody, Sensor, Site, Situation};
 use crate::vehicle::Vehicle;
 use trackdyn_core::{PerSide, Scalar, Wrench};
 
-/// An effect of the catalogue with the values of its parameters.
+/// An effect with the values of its parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ActiveEffect {
     effect: EffectId,
@@ -23,7 +24,14 @@ impl ActiveEffect {
     /// Unknown effect or parameter (with the nearest name), a parameter given twice, or a value
     /// outside its physical range.
     pub fn new(id: &str, settings: &[(&str, f64)]) -> Result<Self, EffectError> {
-        let effect: EffectId = id.parse()?;
+        Self::of(id.parse()?, settings)
+    }
+
+    /// This effect with `settings` (key, value), as for [`ActiveEffect::new`].
+    ///
+    /// # Errors
+    /// Those of [`ActiveEffect::new`], but for an unknown effect.
+    pub fn of(effect: EffectId, settings: &[(&str, f64)]) -> Result<Self, EffectError> {
         let card = effect.card();
         let mut values: Vec<Option<f64>> = vec![None; card.parameters.len()];
         for &(key, value) in settings {
@@ -139,6 +147,10 @@ impl Effects {
 
     /// Adds an effect; it replaces one of the same id.
     pub fn insert(&mut self, effect: ActiveEffect) {
+        if effect.effect.custom().is_some() {
+            // A law that was registered again has another number.
+            self.0.retain(|present| present.card().id != effect.card().id);
+        }
         match self.0.binary_search_by_key(&effect.effect, |present| present.effect) {
             Ok(position) => self.0[position] = effect,
             Err(position) => self.0.insert(position, effect),
@@ -214,6 +226,14 @@ impl ActiveEffect {
     #[inline]
     pub(crate) fn shear<S: Scalar>(&self, site: &Site<S>, stress: &mut ShearStress<S>) {
         self.law.shear(site, stress);
+    }
+
+    /// The law of a user that it is, whose friction is found for many points at once.
+    pub(crate) fn custom(&self) -> Option<&ActiveLaw> {
+        match &self.law {
+            Law::Custom(law) => Some(law),
+            _ => None,
+        }
     }
 
     #[inline]

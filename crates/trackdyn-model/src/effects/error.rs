@@ -7,7 +7,7 @@ use crate::effect::{Card, Parameter};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum EffectError {
-    /// No such id in the catalogue.
+    /// No such id, in the catalogue or of a registered law.
     UnknownEffect {
         /// Requested id.
         id: String,
@@ -68,7 +68,8 @@ impl EffectError {
         match self {
             Self::UnknownEffect { id } => {
                 let ids = CATALOGUE.iter().map(|card| card.id);
-                format!("an effect of the catalogue, such as \"{}\"", nearest(id, ids))
+                let near = nearest(id, ids);
+                format!("an effect of the catalogue, such as \"{near}\", or a law defined here")
             }
             Self::UnknownParameter { card, key } => {
                 let keys = || card.parameters.iter().map(|parameter| parameter.key);

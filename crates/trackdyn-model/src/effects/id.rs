@@ -1,33 +1,57 @@
-//! Identifier of a catalogue effect.
+//! Identifier of an effect.
 
 use super::{CATALOGUE, EffectError};
+use crate::custom::{self, CustomLaw, DefinitionError};
 use crate::effect::Card;
 use std::fmt;
 use std::str::FromStr;
 
-/// An effect of the catalogue. Ordered as the catalogue; printed as its id in vehicle files.
+/// An effect of the catalogue, or a [law of a user](crate::custom). Ordered as the catalogue, then
+/// as registered; printed as its id in vehicle files.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct EffectId {
-    /// Index in [`CATALOGUE`], below its length.
+    /// Index in [`CATALOGUE`]; from its length on, in the laws that were registered.
     index: usize,
 }
 
 impl EffectId {
-    /// All effects, in the catalogue's order.
+    /// All effects of the catalogue, in its order.
     pub fn all() -> impl DoubleEndedIterator<Item = Self> + ExactSizeIterator {
         (0..CATALOGUE.len()).map(|index| Self { index })
     }
 
-    /// The effect with this id of vehicle files, such as `yaw-inertia`; none where the catalogue
-    /// has no such effect.
+    /// The effect with this id of vehicle files, such as `yaw-inertia`; none where neither the
+    /// catalogue nor a registered law has it.
     pub fn of(id: &str) -> Option<Self> {
-        let index = CATALOGUE.iter().position(|card| card.id == id)?;
+        let index = CATALOGUE.iter().position(|card| card.id == id);
+        let index = index.or_else(|| Some(CATALOGUE.len() + custom::named(id)?))?;
         Some(Self { index })
+    }
+
+    /// Registers a law of a user for the rest of the process: its id can be used like one of the
+    /// catalogue. A law of the same id stays with the vehicles that have it; new ones get this.
+    ///
+    /// # Errors
+    /// [`DefinitionError::InCatalogue`].
+    pub fn register(law: CustomLaw) -> Result<Self, DefinitionError> {
+        let id = law.card().id;
+        if CATALOGUE.iter().any(|card| card.id == id) {
+            return Err(DefinitionError::InCatalogue { id: id.to_owned() });
+        }
+        Ok(Self { index: CATALOGUE.len() + custom::register(law) })
     }
 
     /// Its card.
     pub fn card(self) -> &'static Card {
-        &CATALOGUE[self.index]
+        match CATALOGUE.get(self.index) {
+            Some(card) => card,
+            None => self.custom().map_or(&CATALOGUE[0], CustomLaw::card),
+        }
+    }
+
+    /// The law of a user that it is; none for an effect of the catalogue.
+    pub fn custom(self) -> Option<&'static CustomLaw> {
+        custom::numbered(self.index.checked_sub(CATALOGUE.len())?)
     }
 
     /// Its id in vehicle files.

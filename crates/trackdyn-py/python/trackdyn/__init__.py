@@ -41,6 +41,7 @@ from ._errors import (
 from ._figure import Figure
 from ._inspection import Inspection, inspect
 from ._kinematics import IcrKinematics
+from ._laws import Law, Parameter, Seen, law
 from ._map import IcrMap, icr_map
 from ._motion_table import MotionTable, motion_table
 from ._odometry import Odometry, odometry
@@ -70,11 +71,13 @@ __all__ = [
     "IdentifyError",
     "InputError",
     "Inspection",
+    "Law",
     "MotionTable",
     "NotDeterminedError",
     "Odometry",
     "OdometryError",
     "OutputError",
+    "Parameter",
     "Parameters",
     "ParametersError",
     "Plan",
@@ -83,6 +86,7 @@ __all__ = [
     "RecordingError",
     "Refusal",
     "ResultError",
+    "Seen",
     "SettingError",
     "SimulateError",
     "Simulation",
@@ -97,6 +101,7 @@ __all__ = [
     "fleet",
     "icr_map",
     "inspect",
+    "law",
     "motion_table",
     "odometry",
     "plan",

@@ -22,6 +22,7 @@ from ._arguments import (
 from ._claims import Refusal, claim_of
 from ._errors import ResultError
 from ._figure import Figure
+from ._laws import LawLike, ids_of, of_ids
 from ._recording import Recording
 from ._vehicle import Vehicle, VehicleLike
 
@@ -56,6 +57,7 @@ class Diagnosis:
             "kinds": inner.kinds,
             "refusals": inner.refusals,
             "corrected": inner.corrected_vehicle.toml,
+            "laws": of_ids(inner.corrected_vehicle.laws),
         }
         self._take(said, inner)
 
@@ -230,6 +232,7 @@ def diagnose(
     held_out: RunsLike = None,
     draws: int = 2000,
     seed: int = 1,
+    laws: LawLike | Iterable[LawLike] | None = None,
     progress: bool | Progress | None = None,
 ) -> Diagnosis:
     """Find where model and recordings of a robot differ, and what physics was left out.
@@ -249,6 +252,9 @@ def diagnose(
         where there are eight or more.
     draws, seed : int
         Draws of the bootstrap behind the tests, 1000 to 100000, and their seed.
+    laws : Law or several, optional
+        Suspects beside the catalogue, as :func:`law` makes them. Those that the vehicle has are
+        suspects anyway.
     progress : bool or callable
         Show a bar (tqdm), or call with stage, finished parts and all parts.
 
@@ -264,6 +270,7 @@ def diagnose(
         "draws": _values.count("draws", draws),
         "seed": seed_of(seed),
         "settings": _settings(settings),
+        "laws": ids_of(laws),
     }
     with told(progress, "diagnose") as tell:
         recorded = [recording_of(one) for one in several]

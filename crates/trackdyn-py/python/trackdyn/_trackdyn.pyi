@@ -27,11 +27,14 @@ __all__ = [
     "icr_map",
     "identify",
     "inspect",
+    "law_arguments",
     "motion_table",
     "odometry",
     "plan",
+    "register_law",
     "simulate",
     "simulate_batch",
+    "taped",
     "to_toml",
     "write_ros2",
 ]
@@ -41,6 +44,8 @@ VERSION: Final[str]
 _Path = str | os.PathLike[str]
 _Progress = Callable[[str, int, int], object] | None
 _Gauge = Vehicle | float
+_Step = float | tuple[str, list[int]]
+_Taped = tuple[list[_Step], list[int]]
 
 @final
 class Vehicle:
@@ -70,6 +75,8 @@ class Vehicle:
     def gauge(self) -> float: ...
     @property
     def effects(self) -> list[str]: ...
+    @property
+    def laws(self) -> list[str]: ...
     @property
     def toml(self) -> str: ...
     @property
@@ -244,6 +251,23 @@ def arrow_stream(columns: dict[str, NDArray[Any]]) -> object: ...
 def from_toml(text: str) -> dict[str, Any]: ...
 def to_toml(table: dict[str, Any]) -> str: ...
 def effects() -> list[dict[str, Any]]: ...
+def law_arguments(acts: str) -> list[str]: ...
+def register_law(
+    id: str,
+    summary: str,
+    acts: str,
+    parameters: Sequence[Mapping[str, Any]],
+    function: Callable[[NDArray[np.float64], tuple[float, ...]], NDArray[np.float64]],
+    tape: _Taped | None,
+    trace: Callable[[tuple[float, ...]], _Taped | None] | None,
+) -> str: ...
+def taped(
+    counts: tuple[int, int, int],
+    steps: Sequence[_Step],
+    results: Sequence[int],
+    columns: NDArray[np.float64],
+    values: Sequence[float],
+) -> NDArray[np.float64]: ...
 def identify(
     recording: Recording, gauge: _Gauge, keywords: Mapping[str, Any], progress: _Progress
 ) -> Identification: ...

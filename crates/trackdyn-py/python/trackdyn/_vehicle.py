@@ -10,6 +10,7 @@ from . import _trackdyn, _values
 from ._arguments import plain
 from ._document import Document
 from ._errors import SettingError, VehicleError
+from ._laws import Law, LawLike, of_ids
 
 
 class Vehicle(Document):
@@ -153,16 +154,18 @@ class Vehicle(Document):
         """Fingerprint of the text of its file: equal vehicles have equal ones."""
         return self._inner.fingerprint
 
-    def with_effect(self, effect: str, **parameters: float) -> Vehicle:
+    def with_effect(self, effect: LawLike, **parameters: float) -> Vehicle:
         """The vehicle with an effect in place of the one of this kind that it may have.
 
         Parameters
         ----------
-        effect : str
-            ``"id"`` or ``"id:parameter=value,..."``.
+        effect : str or Law
+            ``"id"`` or ``"id:parameter=value,..."``, or a law as :func:`law` makes it.
         **parameters : float
             Parameters of the effect by their keys, in the unit that the key ends in.
         """
+        if isinstance(effect, Law):
+            return self._of(self._inner.with_effect(effect.with_values(**parameters)))
         effect = _values.text("effect", effect)
         if parameters:
             numbers = {key: _values.number(key, value) for key, value in parameters.items()}
@@ -201,11 +204,18 @@ class Vehicle(Document):
         return Vehicle(tables)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Vehicle.from_toml, (self._inner.toml,)
+        # reading the laws imports the modules that define them
+        laws = of_ids(self._inner.laws)
+        return _restored, (self._inner.toml, *laws)
 
     def __repr__(self) -> str:
         effects = "".join(f", {effect}" for effect in self.effects)
         return f"<Vehicle {self.name}, gauge {self.gauge} m{effects}>"
+
+
+def _restored(text: str, *_: Law) -> Vehicle:
+    """A vehicle from a pickle, with laws that are defined by now."""
+    return Vehicle.from_toml(text)
 
 
 #: A vehicle, or what makes one: the path of a file, the name of a preset, or a dict.

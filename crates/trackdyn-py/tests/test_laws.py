@@ -1,0 +1,241 @@
+"""Laws of a user: effects beside the catalogue, as functions of Python."""
+
+import math
+import pickle
+import subprocess
+import sys
+import threading
+from pathlib import Path
+from types import SimpleNamespace
+
+import lawful
+import numpy as np
+import pytest
+
+import trackdyn as td
+
+SIZE = {"strength": td.Parameter("N", 7.0)}
+
+
+def driven(robot, law, **parameters):
+    """The true motion of a robot with a law, or without."""
+    robot = robot.with_effect(law, **parameters) if law else robot
+    return td.simulate(robot, "designed", runs=1, duration=6.0, inertia=False).truth
+
+
+def off(one, other):
+    names = ("x", "y", "yaw", "v_forward", "v_lateral", "yaw_rate")
+    return max(np.max(np.abs(one[name] - other[name])) for name in names)
+
+
+@pytest.mark.parametrize(
+    ("law", "twin", "sizes"),
+    [
+        (lawful.my_turn, "centripetal", {"strength": 0.8}),
+        (lawful.my_slow_turn, "centripetal", {"strength": 0.8}),
+        (lawful.my_oil, "viscous-friction:growth_s_per_m=0.7", {"growth": 0.7}),
+    ],
+)
+def test_a_copy_of_a_law_moves_as_its_twin(robot, law, twin, sizes):
+    copy = driven(robot, law, **sizes)
+    own = driven(robot, twin, **(sizes if twin == "centripetal" else {}))
+    assert off(copy, own) < 1e-8
+    assert off(copy, driven(robot, None)) > 1e-4
+
+
+def test_what_a_law_is_can_be_asked(robot):
+    assert lawful.my_turn.is_compiled and lawful.my_oil.is_compiled
+    assert not lawful.my_slow_turn.is_compiled
+    breaks = {card.id: card.breaks for card in td.effects()}
+    assert lawful.my_turn.breaks == breaks["centripetal"] == lawful.my_slow_turn.breaks
+    assert lawful.my_oil.breaks == breaks["viscous-friction"]
+    assert lawful.my_turn.summary.startswith("The catalogue's")
+    assert repr(lawful.my_oil) == "<Law my-oil(growth), acts as friction, compiled>"
+    found = robot.with_effect(lawful.my_oil, growth=0.25)
+    assert found.effects == ["my-oil:growth=0.25"] and "[effect.my-oil]" in found._inner.toml
+    assert robot.with_effect("my-oil").effects == ["my-oil:growth=0.5"]
+    assert td.icr_map(found, points=5)
+
+
+def everything(at, a, b):
+    """What can be traced."""
+    swift = np.abs(at.v_forward) > 0.3
+    fast = np.where(swift & ~(at.yaw_rate < 0.0), np.tanh(a * at.yaw_rate), b)
+    table = np.interp(at.v_left, [-1.0, 0.0, 0.5, 2.0], [3.0, 0.0, -1.0, 4.0])
+    force = np.clip(fast + table, -2.0, 2.5) * np.hypot(at.v_lateral, 0.1)
+    force += np.sqrt(np.maximum(at.load_left, 0.0)) % 3.0
+    force -= np.zeros_like(at.time) + np.sign(at.x) * np.cos(at.heading) ** 2
+    return force, np.arctan2(at.y, 1.0 + at.time**2), -force
+
+
+def test_steps_do_what_the_function_does():
+    parameters = {"a": td.Parameter("1", 2.0), "b": td.Parameter("1", 0.3, role="shape")}
+    assert td.law("my-everything", parameters=parameters)(everything).is_compiled
+
+
+def test_what_depends_on_parameters_is_traced_for_each(robot):
+    """An interpreter's `if` knows numbers alone."""
+
+    @td.law("my-gear", parameters={"strength": td.Parameter("N s/m", 20.0)})
+    def my_gear(at, strength):
+        force = np.select([at.v_forward > 0.2, at.v_forward < -0.2], [0.2, -0.2], at.v_forward)
+        if strength > 25.0:
+            force = np.polyval([math.sqrt(strength), 0.0, 0.0], force)
+        return -strength * force, 0.0
+
+    @td.law("my-looked-at-gear", parameters={"strength": td.Parameter("N s/m", 20.0)})
+    def looked_at(at, strength):
+        return my_gear(SimpleNamespace(v_forward=np.asarray(at.v_forward)), strength)
+
+    assert my_gear.is_compiled and not looked_at.is_compiled
+    for strength in (20.0, 30.0, 40.0):
+        one, other = (driven(robot, law, strength=strength) for law in (my_gear, looked_at))
+        assert off(one, other) < 1e-9
+
+
+@pytest.mark.parametrize(
+    "function",
+    [
+        lambda at, strength: (np.sort(at.v_forward), 0.0),
+        lambda at, strength: (np.array([0.0 * v for v in at.v_forward]), 0.0),
+        lambda at, strength: (at.v_forward - np.mean(at.v_forward), 0.0),
+        lambda at, strength: (np.random.default_rng().random(len(at.time)), 0.0),
+    ],
+)
+def test_what_cannot_be_traced_is_called(function):
+    assert not td.law("my-call", parameters=SIZE)(function).is_compiled
+
+
+def test_exceptions_come_out_as_they_are(robot):
+    class Tired(RuntimeError):
+        pass
+
+    @td.law("my-mood", parameters=SIZE)
+    def my_mood(at, strength):
+        if np.any(np.abs(np.asarray(at.v_forward)) > 0.2) and strength > 8.0:
+            raise Tired("not so fast")
+        return 0.0 * at.v_forward, 0.0
+
+    moody = robot.with_effect(my_mood, strength=9.0)
+    for ask in (lambda: td.simulate(moody, runs=2, duration=5.0), lambda: td.icr_map(moody)):
+        with pytest.raises(Tired, match="not so fast"):
+            ask()
+    assert td.simulate(robot.with_effect(my_mood), runs=1, duration=2.0)
+    with pytest.raises(ZeroDivisionError):
+        td.law("my-end", parameters=SIZE)(lambda at, strength: 1 // 0)
+
+
+def test_what_is_no_result_is_refused_by_law_and_value(robot):
+    for adds, said in [
+        (lambda at, strength: at.v_forward, "1 results: expected force forward"),
+        (lambda at, strength: (at.v_forward, np.zeros(3)), "shape (3,): expected numbers of shape"),
+        (lambda at, strength: (at.v_forward, "soft"), "a str: expected numbers"),
+        (lambda at, strength: (np.log(at.v_forward - 9.0), 0.0), "forward force NaN at v_forward"),
+        (lambda at, strength: (at.pressure, 0.0), "pressure: a law that acts as force"),
+    ]:
+        with pytest.raises(td.EffectError) as raised, np.errstate(all="ignore"):
+            td.law("my-wrong", parameters=SIZE)(adds)
+        text = str(raised.value)
+        assert said in text, text
+        assert "strength" in text and "my-wrong" in text or "pressure" in text, text
+
+    @td.law("my-hole", parameters=SIZE)
+    def my_hole(at, strength):
+        return strength * np.sqrt(0.9 + at.v_left), 0.0
+
+    with pytest.raises(td.EffectError, match=r"my-hole.*strength = 3.*v_left = -1,.*finite number"):
+        td.icr_map(robot.with_effect(my_hole, strength=3.0))
+
+
+def test_what_no_law_can_be_is_refused(robot):
+    def fine(at, strength):
+        return 0.0 * at.x, 0.0
+
+    for ask, said in [
+        (lambda: td.law("slope", parameters=SIZE)(fine), "an effect of the catalogue"),
+        (lambda: td.law("My law", parameters=SIZE)(fine), "small letters"),
+        (lambda: td.law("my-law", parameters={})(fine), "strength"),
+        (lambda: td.law("my-law", parameters={"strength": 3.0}), "td.Parameter"),
+        (lambda: td.law("my-law", parameters=SIZE, acts="magic"), "'force' or 'friction'"),
+        (lambda: robot.with_effect(lawful.my_oil, grip=1.0), "expected one of growth"),
+        (lambda: robot.with_effect(lawful.my_oil, growth=-1.0), "between 0 and 10"),
+        (lambda: td.Vehicle("auriga-alpha").with_effect("my-unknown"), "or a law defined here"),
+        (lambda: td.diagnose([], robot, laws="my-unknown"), "as @td.law makes it"),
+    ]:
+        with pytest.raises(td.InputError) as raised:
+            ask()
+        assert said in str(raised.value), str(raised.value)
+
+
+def test_a_file_with_a_law_is_read_where_it_is_defined(robot, program, tmp_path):
+    path = tmp_path / "robot.toml"
+    path.write_text(robot.with_effect(lawful.my_snow, drag=150.0)._inner.toml)
+    assert td.Vehicle(path).effects == ["my-snow:drag=150"]
+    done = program("simulate", "--vehicle", path, "--out", tmp_path / "drive")
+    assert done.returncode == 1 and "my-snow" in done.stderr, done.stderr
+    assert "a law defined here" in done.stderr, done.stderr
+
+
+def test_a_pickle_brings_the_module_of_its_law(robot, tmp_path):
+    snowy = robot.with_effect(lawful.my_snow, drag=150.0)
+    assert pickle.loads(pickle.dumps(snowy)) == snowy
+    assert pickle.loads(pickle.dumps(lawful.my_snow)) is lawful.my_snow
+    (tmp_path / "snowy.pickle").write_bytes(pickle.dumps(snowy))
+    code = "import pickle, sys; print(pickle.load(open(sys.argv[1], 'rb')).effects)"
+    words = [sys.executable, "-c", code, str(tmp_path / "snowy.pickle")]
+    here = str(Path(__file__).parent)
+    done = subprocess.run(words, capture_output=True, text=True, check=False, cwd=here)
+    assert done.stdout.strip() == "['my-snow:drag=150']", done.stderr
+
+    @td.law("my-local", parameters=SIZE)
+    def my_local(at, strength):
+        return -strength * np.tanh(at.v_forward), 0.0
+
+    with pytest.raises((pickle.PicklingError, AttributeError), match="my_local"):
+        pickle.dumps(robot.with_effect(my_local))
+
+
+@pytest.fixture(scope="module")
+def snow(model):
+    """A drive of a robot whose hull ploughs through snow."""
+    snowy = model.with_effect(lawful.my_snow, drag=400.0)
+    return td.simulate(snowy, runs=1, duration=25.0, sensors="perfect", seed=3).recording
+
+
+def test_a_suspect_is_named(snow, model):
+    found = td.diagnose(snow, model, laws=lawful.my_snow, draws=1000, held_out="none")
+    named = {claim.effect: claim for claim in found.claims}
+    assert "my-snow" in named, repr(found)
+    size = named["my-snow"].sizes[0]
+    assert size.name == "drag" and size.value == pytest.approx(400.0, rel=0.2)
+    assert any("my-snow" in effect for effect in found.corrected_vehicle.effects)
+    assert "my-snow" in found.report() and "my-snow" in found.to_toml()
+    same = pickle.loads(pickle.dumps(found))
+    assert same.corrected_vehicle == found.corrected_vehicle
+
+
+def test_a_copy_is_in_the_set_of_its_twin(model):
+    """A log that was made with the law of the catalogue."""
+    oily = model.with_effect("viscous-friction", growth_s_per_m=0.8)
+    log = td.simulate(oily, runs=1, duration=25.0, sensors="perfect", seed=3).recording
+    found = td.diagnose(log, model, laws=[lawful.my_oil], draws=1000, held_out="none")
+    twins = [claim for claim in found.claims if "my-oil" in claim.one_of]
+    assert twins and "viscous-friction" in twins[0].one_of, repr(found)
+
+
+def test_a_suspect_that_was_not_there_is_not_named(model):
+    log = td.simulate(model, runs=1, duration=25.0, sensors="perfect", seed=5).recording
+    found = td.diagnose(log, model, laws=[lawful.my_snow], draws=1000, held_out="none")
+    assert all("my-snow" not in claim.one_of for claim in found.claims), repr(found)
+
+
+def test_python_goes_on_while_a_law_is_called(robot):
+    """The interpreter is held during a call only."""
+    done = []
+    thread = threading.Thread(target=lambda: done.append(driven(robot, lawful.my_slow_turn)))
+    thread.start()
+    steps = 0
+    while thread.is_alive() and steps < 10**7:
+        steps += 1
+    thread.join()
+    assert done and steps > 10

@@ -2,6 +2,7 @@
 
 use crate::change::Folder;
 use crate::diagnose::{HeldOut, Prepared as Set};
+use crate::law::guarded;
 use crate::{
     Change, DiagnoseSettings, Error, MethodSettings, Observer, Progress, Provenance, Recording,
     Vehicle, unobserved,
@@ -11,6 +12,7 @@ use trackdyn_diagnose::Resampling;
 use trackdyn_diagnose::compare::document::ComparisonFile;
 use trackdyn_diagnose::compare::{Comparison as Found, STAGES, Status, compare as compared};
 use trackdyn_diagnose::progress::Watch;
+use trackdyn_model::EffectId;
 use trackdyn_report::{Compared, comparison_figures, comparison_html};
 
 /// Name of the report.
@@ -26,6 +28,8 @@ pub struct CompareSettings {
     pub resampling: Resampling,
     /// All numbers that decide an answer: thresholds, priors, step sizes.
     pub method: MethodSettings,
+    /// Laws of a user that are candidates beside the catalogue.
+    pub laws: Vec<EffectId>,
 }
 
 /// Compares recordings of a simulator with those of the robot: where they differ, what one has and
@@ -71,6 +75,7 @@ impl Prepared {
                 held_out: held_out.clone(),
                 resampling: settings.resampling,
                 method: settings.method.clone(),
+                laws: settings.laws.clone(),
             };
             Set::new(recordings, vehicle, &settings)
         };
@@ -83,8 +88,13 @@ impl Prepared {
     ///
     /// # Errors
     /// [`Error::Diagnose`] for driving without turns, or a vehicle that cannot move as recorded;
-    /// [`Error::Cancelled`].
+    /// [`Error::Law`], [`Error::Cancelled`].
     pub fn run(self, observer: &Observer) -> Result<Comparison, Error> {
+        let found = guarded(|| self.compared(observer))?;
+        Ok(Comparison { found, of: self })
+    }
+
+    fn compared(&self, observer: &Observer) -> Result<Found, Error> {
         let total = 2 * Set::PARTS + STAGES;
         let sim = self.sets[0].examined(observer, 0, total)?;
         let real = self.sets[1].examined(observer, Set::PARTS, total)?;
@@ -94,8 +104,7 @@ impl Prepared {
         };
         let watch = &Watch::new(&progress, STAGES);
         let found = compared([&sim, &real], self.vehicle.file(), self.resampling, watch);
-        let found = found.map_err(|_| Error::Cancelled)?;
-        Ok(Comparison { found, of: self })
+        found.map_err(|_| Error::Cancelled)
     }
 }
 

@@ -72,6 +72,7 @@ pub fn run(options: &Options) -> Outcome {
         held_out: held_out(options)?,
         resampling: Resampling { draws: options.draws as usize, seed: options.seed },
         method: method.unwrap_or_default(),
+        laws: Vec::new(),
     };
     let prepared = Prepared::new(&sim, &real, &vehicle, &settings)?;
     prepare_folder(&options.out)?;

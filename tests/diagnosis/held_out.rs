@@ -51,7 +51,7 @@ fn evidence(last: f64, wrong: f64) -> Evidence {
     let runs: Vec<PlannedRun> =
         (0..RUNS).map(|seed| run(seed, if seed + 1 == RUNS { last } else { 0.8 })).collect();
     let variance = NOISE * NOISE;
-    let noise = SegmentNoise { pose: [variance; 3], walk: [variance; 3], heading: 0.0 };
+    let noise = SegmentNoise { pose: [variance; 3], walk: [variance; 3], heading: 0.0, stamp: 0.0 };
     Evidence::planned(&runs, noise, 0.0, &Settings::default(), |evidence| {
         let mut random = ChaCha8Rng::seed_from_u64(1);
         let moved = Mechanics::new(&truth, evidence).predict(&Instruments::of(&truth), evidence);

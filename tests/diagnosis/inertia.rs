@@ -52,8 +52,12 @@ fn what_inertia_adds_is_what_small_steps_make_it() {
     // of a laboratory
     let [pose, walk] = [4e-3_f64, 1.5e-3].map(|deviation| deviation.powi(2));
     let yaw = [0.17_f64, 0.07].map(|degrees| degrees.to_radians().powi(2));
-    let noise =
-        SegmentNoise { pose: [pose, pose, yaw[0]], walk: [walk, walk, 0.0], heading: yaw[1] };
+    let noise = SegmentNoise {
+        pose: [pose, pose, yaw[0]],
+        walk: [walk, walk, 0.0],
+        heading: yaw[1],
+        stamp: 0.0,
+    };
     let evidence = Weighted::new(evidence).with_noise(noise);
     let exact = in_time(&hypothesis, &evidence, (0.002, 1e-5));
     let off = evidence.white(minus(&predicted(&hypothesis, &evidence), &exact));
@@ -237,7 +241,7 @@ fn in_time(
             let mut path = Trajectory::default();
             let mut robot = Transient::at_rest(&model, run[0].t, Pose::default())
                 .with_step(step)
-                .with_tolerance(tolerance);
+                .with_tolerance(tolerance, step / 20.0);
             path.push(robot.moment());
             for pair in run.windows(2) {
                 let speeds = PerSide::new(pair[0].v_left, pair[0].v_right);

@@ -138,9 +138,9 @@ fn separations(found: &Diagnosis, effect: EffectId) -> Vec<(EffectId, f64)> {
     let entries = Beside::new(&base.fit.hypothesis, evidence).signatures(&tried);
     let catalogue = Catalogue { entries };
     let search = Search::new(evidence.clone(), Arc::clone(base), catalogue);
-    let entries = &search.catalogue.entries;
+    let (nothing, entries) = (search.nothing(), &search.catalogue.entries);
     let apart = |rival: usize| {
-        let Equations { normal, priors, free, groups } = search.equations(&base.fit, &[0, rival]);
+        let Equations { normal, priors, free, groups } = search.equations(&nothing, &[0, rival]);
         let projected = normal.projected(&[&free[..], &groups[1]].concat(), &priors);
         let square = sizes.dot(&(projected.information(&groups[0]) * &sizes));
         (entries[rival].0.effect, square.max(0.0).sqrt())

@@ -18,6 +18,7 @@ mod provenance;
 mod shell;
 mod stderr;
 mod stdout;
+mod threads;
 mod wording;
 mod wrapped;
 
@@ -43,6 +44,10 @@ fn main() -> ExitCode {
             return exit.into();
         }
     };
+    if let Err(error) = threads::check() {
+        fail(&error);
+        return Exit::BadInput.into();
+    }
     if let Err(error) = interrupt::end_between_files() {
         fail(&format!("Ctrl-C cannot be waited for: {error}"));
         return Exit::BadInput.into();

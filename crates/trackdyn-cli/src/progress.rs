@@ -44,7 +44,7 @@ impl Progress {
     pub fn over<T>(work: impl FnOnce(&Observer) -> Result<T, Error>) -> Result<T, Error> {
         let bar = Self::new(0);
         let result = work(&|progress: trackdyn::Progress| {
-            bar.show(progress.done as u64, progress.total as u64);
+            bar.show(progress.stage, progress.done as u64, progress.total as u64);
             ControlFlow::Continue(())
         });
         bar.finish();
@@ -54,24 +54,35 @@ impl Progress {
     /// Notes `count` more finished items.
     pub fn advance(&self, count: usize) {
         let done = self.done.fetch_add(count as u64, Ordering::Relaxed) + count as u64;
-        self.show(done, self.total);
+        self.show("", done, self.total);
     }
 
-    fn show(&self, done: u64, total: u64) {
+    /// Shows how far the work has come, and its stage, in a word.
+    fn show(&self, stage: &'static str, done: u64, total: u64) {
         let elapsed = self.start.elapsed();
         match &self.shown {
             Shown::Bar(bar) if elapsed > PATIENCE => {
                 let bar = bar.get_or_init(|| {
-                    let style = ProgressStyle::with_template("{bar:40} {percent}% {eta} left")
+                    // Stages take from a tenth of a second to minutes: what they have taken says
+                    // nothing of what is left.
+                    let template = if self.total > 0 {
+                        "{bar:40} {pos} of {len}, {eta} left"
+                    } else {
+                        "{bar:40} {pos} of {len}, {elapsed}: {msg}"
+                    };
+                    let style = ProgressStyle::with_template(template)
                         .unwrap_or_else(|_| ProgressStyle::default_bar());
-                    ProgressBar::new(total).with_style(style).with_elapsed(elapsed)
+                    let bar = ProgressBar::new(total).with_style(style).with_elapsed(elapsed);
+                    bar.enable_steady_tick(PATIENCE);
+                    bar
                 });
+                bar.set_message(stage);
                 bar.set_position(done);
             }
             Shown::Bar(_) => {}
             Shown::Lines(lines) => {
                 let mut lines = lines.lock().unwrap_or_else(PoisonError::into_inner);
-                if let Some(line) = lines.line(done, total, elapsed) {
+                if let Some(line) = lines.line(stage, (done, total), elapsed) {
                     say(format_args!("{line}"));
                 }
             }
@@ -96,12 +107,18 @@ struct Lines {
 
 impl Lines {
     /// The line to be written now, if any; none of work that is done.
-    fn line(&mut self, done: u64, total: u64, elapsed: Duration) -> Option<String> {
+    fn line(
+        &mut self,
+        stage: &str,
+        (done, total): (u64, u64),
+        elapsed: Duration,
+    ) -> Option<String> {
         if elapsed < self.due || done >= total {
             return None;
         }
         self.due = elapsed + BETWEEN_LINES;
-        Some(format!("{done} of {total} done after {} s", elapsed.as_secs()))
+        let now = if stage.is_empty() { String::new() } else { format!(", now {stage}") };
+        Some(format!("{done} of {total} done after {} s{now}", elapsed.as_secs()))
     }
 }
 
@@ -112,11 +129,12 @@ mod tests {
     #[test]
     fn a_log_gets_a_line_now_and_then_while_work_goes_on() {
         let mut lines = Lines { due: BETWEEN_LINES };
-        let mut at = |done, seconds| lines.line(done, 9, Duration::from_secs(seconds));
-        assert_eq!(at(1, 29), None);
-        assert_eq!(at(2, 31).as_deref(), Some("2 of 9 done after 31 s"));
-        assert_eq!(at(3, 60), None);
-        assert_eq!(at(4, 61).as_deref(), Some("4 of 9 done after 61 s"));
-        assert_eq!(at(9, 100), None);
+        let mut at =
+            |stage, done, seconds| lines.line(stage, (done, 9), Duration::from_secs(seconds));
+        assert_eq!(at("", 1, 29), None);
+        assert_eq!(at("", 2, 31).as_deref(), Some("2 of 9 done after 31 s"));
+        assert_eq!(at("search", 3, 60), None);
+        assert_eq!(at("search", 4, 61).as_deref(), Some("4 of 9 done after 61 s, now search"));
+        assert_eq!(at("", 9, 100), None);
     }
 }

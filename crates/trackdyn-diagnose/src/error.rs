@@ -12,7 +12,7 @@ pub enum Error {
         "{found} segments to learn from: expected at least {needed}, that is, some {:.0} s more of \
          driving with turns both ways and changes of speed, with poses and track speeds by the \
          same clock, in seconds, in runs that are not held out",
-        .each * real(.needed.saturating_sub(*.found))
+        (.each * real(.needed.saturating_sub(*.found))).ceil()
     )]
     TooFewSegments {
         /// Segments of the runs that are not held out.

@@ -94,6 +94,11 @@ impl Evidence {
         &self.samples
     }
 
+    /// The samples, to be kept.
+    pub(crate) fn shared_samples(&self) -> &Arc<[Sample]> {
+        &self.samples
+    }
+
     /// Track readings of each run; empty for a run without samples.
     pub fn tracks(&self) -> &[Vec<TrackSample>] {
         &self.tracks

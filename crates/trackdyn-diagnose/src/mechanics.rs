@@ -320,16 +320,18 @@ impl Mechanics {
             Cow::Owned(steady(&self.surface, drive, evidence.tracks()))
         };
         let samples = evidence.samples();
+        let by_inertia = self.in_time.inertia();
+        let departures =
+            |of: &InertiaNear| of.departures(evidence.shared_samples(), drive, sensor.delay);
+        let by_inertia = by_inertia.map(departures);
+        let reported = sensor.reporting();
         (0..samples.len())
             .into_par_iter()
             .with_min_len(TASK)
             .map(|index| {
                 let sample = &samples[index];
                 let by_ground = self.ground.as_ref().map(|departures| departures[index]);
-                let by_inertia = self
-                    .in_time
-                    .inertia()
-                    .map(|inertia| inertia.departure(index, sample, drive, sensor.delay));
+                let by_inertia = by_inertia.as_ref().map(|departures| departures[index]);
                 let departure = [by_ground, by_inertia].into_iter().flatten().reduce(|a, b| a + b);
                 let departure = departure.map(|departure| seen_from(&departure, offset));
                 let tracks = &evidence.tracks()[sample.run];
@@ -343,7 +345,7 @@ impl Mechanics {
                     if let Some(sheared) = sheared {
                         twist += seen_from(&sheared[reading], offset);
                     }
-                    ros_twist_from_paper(&sensor.reported(&twist))
+                    ros_twist_from_paper(&reported(&twist))
                 });
                 Vector3::new(pose.x, pose.y, pose.yaw)
             })

@@ -11,11 +11,13 @@ pub struct Tolerance {
     pub converged: f64,
     /// Norm of the residual up to which a point counts as a root when rounding prevents more.
     pub rounding: f64,
+    /// Whether a step that by the last rate of convergence ends there is not evaluated again.
+    pub is_trusting: bool,
 }
 
 impl Tolerance {
     /// Tolerance for friction computed to half the digits.
-    const COARSE: Self = Self { converged: 1e-8, rounding: 1e-7 };
+    const COARSE: Self = Self { converged: 1e-8, rounding: 1e-7, is_trusting: true };
 
     /// Tolerance at a resolution of friction: a root is no more accurate than that.
     pub fn at(self, resolution: Resolution) -> Self {
@@ -84,7 +86,7 @@ pub fn from_near<const N: usize>(
     residual: impl Fn(SVector<f64, N>) -> SVector<f64, N>,
 ) -> Option<Convergence<N>> {
     let (mut point, mut value, mut inverse) = (start, value, inverse);
-    let mut norm = value.norm();
+    let (mut norm, mut ratio) = (value.norm(), 1.0);
     let mut iterations = 0;
     if norm.is_nan() {
         return None;
@@ -92,16 +94,20 @@ pub fn from_near<const N: usize>(
     while norm > tolerance.converged {
         let step = -(inverse * value);
         point += step;
+        iterations += 1;
+        if tolerance.is_trusting && ratio * norm <= tolerance.converged {
+            norm *= ratio;
+            break;
+        }
         let next = residual(point);
         let next_norm = next.norm();
-        iterations += 1;
         if next_norm.is_nan() || next_norm > MAX_RESIDUAL_RATIO * norm {
             return None;
         }
         let mapped = inverse * (next - value);
         let along = step.transpose() * inverse;
         inverse += (step - mapped) * along / step.dot(&mapped);
-        (value, norm) = (next, next_norm);
+        (value, norm, ratio) = (next, next_norm, next_norm / norm);
     }
     let inverse = Some(inverse).filter(|inverse| inverse.iter().all(|value| value.is_finite()));
     Some(Convergence { point, residual: norm, iterations, is_root: true, inverse })
@@ -184,7 +190,7 @@ mod tests {
     use super::*;
     use nalgebra::{Matrix3, Vector3};
 
-    const EXACT: Tolerance = Tolerance { converged: 1e-13, rounding: 1e-11 };
+    const EXACT: Tolerance = Tolerance { converged: 1e-13, rounding: 1e-11, is_trusting: false };
 
     fn quadratic(root: Vector3<f64>) -> impl Fn(Vector3<f64>) -> Evaluation<3> {
         move |z| {

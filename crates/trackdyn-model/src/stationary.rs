@@ -31,10 +31,10 @@ const SPIN_SPEED: f64 = 1e-6;
 
 /// Tolerance of the residual over the weight; and, for belts that slip, of the change of belt
 /// speeds over the faster one.
-const TOLERANCE: Tolerance = Tolerance { converged: 1e-13, rounding: 1e-11 };
+const TOLERANCE: Tolerance = Tolerance { converged: 1e-13, rounding: 1e-11, is_trusting: false };
 
 /// Largest tolerance of a solve from a known motion: both results are compared with each other.
-const MAX_COMPARED_RESIDUAL: f64 = 1e-10;
+const MAX_COMPARED_RESIDUAL: f64 = 1e-9;
 
 /// Largest number of iterations between belt speeds and traction.
 const MAX_ALTERNATIONS: usize = 100;

@@ -40,8 +40,11 @@ pub const STICKING_SLIP_VELOCITY: f64 = 1e-6;
 /// Coefficient γ = 1 − 1/√2 of the method, whose second stage is the end of the step.
 pub const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 
-/// Largest number of halvings of a step for accuracy.
-const MAX_REFINEMENTS: u32 = 2;
+/// Share of the step at which the error would be the tolerance that the next one takes.
+const SAFETY: f64 = 0.8;
+
+/// Largest growth from one step to the next, and largest loss at a try.
+const GROWTH: [f64; 2] = [0.3, 4.0];
 
 /// Largest number of halvings of a step for convergence.
 const MAX_HALVINGS: u32 = 10;
@@ -90,8 +93,8 @@ pub struct Instant {
 pub struct Transient<'m> {
     model: &'m Model,
     longest_step: f64,
-    /// Estimated error of the twist above which a step is halved, m/s.
-    tolerance: f64,
+    /// Error by which steps are chosen; none for even steps.
+    accuracy: Option<Accuracy>,
     /// Slip velocity below which a track sticks, m/s.
     creep: f64,
     /// Whether forces depend on acceleration. Without inertia the twist jumps, and its rate is
@@ -100,6 +103,27 @@ pub struct Transient<'m> {
     /// Recorded steps; none unless requested.
     steps: Option<Vec<Step>>,
     state: State,
+}
+
+/// Steps by their error.
+#[derive(Clone, Copy, Debug)]
+struct Accuracy {
+    /// Estimated error of the twist above which a step is shortened, m/s.
+    tolerance: f64,
+    /// Shortest step, whatever its error, s.
+    shortest: f64,
+    /// Step with which an interval of equal encoder speeds is begun, s.
+    first: f64,
+}
+
+impl Accuracy {
+    /// The step after one of this length with this error, or in its place. The error grows with
+    /// the square of the step.
+    fn next(&self, step: f64, error: f64) -> f64 {
+        let [least, most] = GROWTH;
+        let factor = SAFETY * (self.tolerance / error).sqrt();
+        (step * factor.clamp(least, most)).max(self.shortest)
+    }
 }
 
 /// State at the start of a step.
@@ -142,7 +166,7 @@ impl<'m> Transient<'m> {
         Self {
             model,
             longest_step: Self::STEP,
-            tolerance: f64::INFINITY,
+            accuracy: None,
             creep: STICKING_SLIP_VELOCITY,
             has_inertia: Self::feels_inertia(model),
             steps: None,
@@ -155,10 +179,10 @@ impl<'m> Transient<'m> {
         Self { longest_step, ..self }
     }
 
-    /// Sets the estimated error of the twist above which a step is halved, m/s; the yaw rate counts
-    /// as a track speed.
-    pub fn with_tolerance(self, tolerance: f64) -> Self {
-        Self { tolerance, ..self }
+    /// Lets steps be as long as an estimated error of the twist (m/s) allows, up to the longest and
+    /// at least `shortest`, s; the yaw rate counts as a track speed. Without, steps are even.
+    pub fn with_tolerance(self, tolerance: f64, shortest: f64) -> Self {
+        Self { accuracy: Some(Accuracy { tolerance, shortest, first: shortest }), ..self }
     }
 
     /// Sets the slip velocity below which a track sticks (default [`STICKING_SLIP_VELOCITY`]), m/s;
@@ -197,17 +221,10 @@ impl<'m> Transient<'m> {
         self
     }
 
-    /// One step to time `end` at the encoder speeds `shown`, halved if it does not converge or its
-    /// error is too large.
+    /// One step to time `end` at the encoder speeds `shown`, halved if it does not converge.
     fn step(&mut self, shown: PerSide<f64>, end: f64, halvings: u32) -> Result<(), Stopped> {
-        if let Some((state, stages, error)) = self.advanced(shown, end)
-            && (error <= self.tolerance || halvings >= MAX_REFINEMENTS)
-        {
-            let duration = end - self.state.t;
-            self.state = state;
-            if let Some(steps) = &mut self.steps {
-                steps.push(Step { end, duration, stages });
-            }
+        if let Some((state, stages, _)) = self.advanced(shown, end) {
+            self.accept(&state, stages);
             return Ok(());
         }
         if halvings == MAX_HALVINGS {
@@ -216,6 +233,66 @@ impl<'m> Transient<'m> {
         }
         self.step(shown, f64::midpoint(self.state.t, end), halvings + 1)?;
         self.step(shown, end, halvings + 1)
+    }
+
+    /// One step towards time `until`, as long as its error allows and `step` at most, s; returns
+    /// what the next one may be.
+    fn step_within(
+        &mut self,
+        accuracy: Accuracy,
+        shown: PerSide<f64>,
+        until: f64,
+        mut step: f64,
+    ) -> Result<f64, Stopped> {
+        loop {
+            let start = self.state.t;
+            // Asked before the end is rounded, which may make a step longer.
+            let is_shortest = step <= accuracy.shortest;
+            // The rest in one step, or in two equal ones rather than a long and a short one.
+            let left = until - start;
+            let end = match left / step {
+                whole if whole < 1.0 + 1e-9 => until,
+                halves if halves < 2.0 => start + left / 2.0,
+                _ => start + step,
+            };
+            step = end - start;
+            match self.advanced(shown, end) {
+                Some((state, stages, error)) => {
+                    let next = accuracy.next(step, error);
+                    if error <= accuracy.tolerance || is_shortest {
+                        self.accept(&state, stages);
+                        return Ok(next);
+                    }
+                    step = next;
+                }
+                None if is_shortest => {
+                    self.step(shown, end, 0)?;
+                    return Ok(accuracy.shortest);
+                }
+                None => step = (step / 2.0).max(accuracy.shortest),
+            }
+        }
+    }
+
+    /// Records where a step led.
+    fn arrived(&self, trajectory: &mut Trajectory) -> Result<(), Stopped> {
+        trajectory.push(self.moment());
+        if self.state.tips {
+            let reason = "the robot tips over: gentler changes of speed, or a lower centre of \
+                          gravity, keep it on the ground"
+                .to_owned();
+            return Err(Stopped { t: self.state.t, reason });
+        }
+        Ok(())
+    }
+
+    /// Goes on to the end of a step with these stages.
+    fn accept(&mut self, state: &State, stages: [Instant; 2]) {
+        let duration = state.t - self.state.t;
+        self.state = *state;
+        if let Some(steps) = &mut self.steps {
+            steps.push(Step { end: state.t, duration, stages });
+        }
     }
 
     /// State at the end of a step, its stages, and the estimated error of its twist, m/s; none
@@ -312,6 +389,18 @@ impl Plant for Transient<'_> {
         until: f64,
         trajectory: &mut Trajectory,
     ) -> Result<(), Stopped> {
+        if let Some(accuracy) = self.accuracy {
+            let mut step = accuracy.first.min(self.longest_step);
+            let mut first = None;
+            while self.state.t < until {
+                step = self.step_within(accuracy, speeds, until, step)?.min(self.longest_step);
+                first.get_or_insert(step);
+                self.arrived(trajectory)?;
+            }
+            // Encoder speeds jump from reading to reading alike.
+            self.accuracy = Some(Accuracy { first: first.unwrap_or(step), ..accuracy });
+            return Ok(());
+        }
         let start = self.state.t;
         let interval = until - start;
         let steps = (interval / self.longest_step - 1e-9).ceil().max(1.0);
@@ -320,13 +409,7 @@ impl Plant for Transient<'_> {
             count += 1.0;
             let end = if count < steps { start + interval * count / steps } else { until };
             self.step(speeds, end, 0)?;
-            trajectory.push(self.moment());
-            if self.state.tips {
-                let reason = "the robot tips over: gentler changes of speed, or a lower centre of \
-                              gravity, keep it on the ground"
-                    .to_owned();
-                return Err(Stopped { t: end, reason });
-            }
+            self.arrived(trajectory)?;
         }
         Ok(())
     }

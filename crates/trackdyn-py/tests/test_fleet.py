@@ -40,7 +40,7 @@ def test_what_is_no_log_has_a_row(in_fleet, expected):
 
 
 def test_a_log_too_short_to_diagnose_keeps_its_icrs(robot, tmp_path):
-    td.simulate(robot, "manual", runs=1, duration=5.0, seed=1).write(tmp_path / "short")
+    td.simulate(robot, "manual", runs=1, duration=6.2, seed=1).write(tmp_path / "short")
     td.fleet.run(tmp_path / "short", robot, tmp_path / "out.parquet", executor=Inline())
     (one,) = rows(tmp_path / "out.parquet").values()
     assert (one["status"], one["stage"]) == ("error", "diagnose")

@@ -26,7 +26,7 @@ jobs = {
     "diagnose": lambda: td.diagnose(log, model),
     "map": lambda: td.icr_map(model.with_effect("centripetal"), points=2001),
     "identify": lambda: td.IcrKinematics(model, population=20000, generations=2000).fit(log),
-    "simulate": lambda: td.simulate(model, runs=1300),
+    "simulate": lambda: td.simulate(model, runs=800),
 }
 sent = []
 def interrupt():

@@ -1,7 +1,7 @@
 //! Numbers at the ends of their range, in every option and key that takes one.
 
 use super::{Case, check, prepared};
-use crate::project_text;
+use crate::{Workplace, project_text};
 
 const ABSURD: [&str; 7] = ["5e-324", "1e-300", "1e308", "-1e308", "-0", "nan", "inf"];
 
@@ -111,4 +111,20 @@ fn cells_of_a_recording() {
         }
     }
     check(&place, &all);
+}
+
+/// The pool of threads is made before any work: 10⁵ of them would keep the machine busy for minutes.
+#[test]
+fn threads() {
+    let place = Workplace::new();
+    for asked in ["100000", "18446744073709551616", "-1", "two"] {
+        let run = place.command("map --grid 5 --out out").env("RAYON_NUM_THREADS", asked).output();
+        let run = run.expect("the program starts");
+        let said = String::from_utf8_lossy(&run.stderr);
+        assert_eq!(run.status.code(), Some(1), "{said}");
+        let expected = format!("RAYON_NUM_THREADS = {asked}: expected 0");
+        assert!(said.contains(&expected), "{said}");
+        assert!(place.files().is_empty(), "{:?}", place.files());
+    }
+    assert_eq!(place.run_with_threads("map --grid 5 --out out", 64).status, 0);
 }

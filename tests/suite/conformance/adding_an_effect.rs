@@ -110,17 +110,17 @@ fn the_page_adds_an_effect_to_model_second_simulator_and_trial() {
         let end = words.iter().position(|word| ***word == *"--").expect("names of tests");
         (words[..end].to_vec(), words[end..].to_vec())
     };
-    // Hardly optimised, the crates of the copy compile in a fraction of the time, and their few
-    // tests take longer.
-    let hardly = crates::all().into_iter().filter(|of| of.name != "trackdyn").flat_map(|of| {
+    // Not optimised, the crates of the copy compile in a fraction of the time, and their few tests
+    // take longer.
+    let plain = crates::all().into_iter().filter(|of| of.name != "trackdyn").flat_map(|of| {
         let key = format!("profile.release.package.trackdyn-{}.opt-level", of.name);
-        ["--config".to_owned(), format!("{key}=1")]
+        ["--config".to_owned(), format!("{key}=0")]
     });
     let run = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
         .args(words)
         .args(["--offline", "--target-dir"])
         .arg(target)
-        .args(hardly)
+        .args(plain)
         .args(filter)
         .current_dir(&folder)
         .output()

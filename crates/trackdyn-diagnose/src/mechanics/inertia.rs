@@ -155,11 +155,12 @@ impl InertiaNear {
         Arc::ptr_eq(&self.at, &other.at)
     }
 
-    /// Departure of the twist (paper's frame) during the sample with this index, for the belt lag
-    /// of `drive` and a pose delay, s.
-    pub fn departure(&self, index: usize, sample: &Sample, drive: &Drive, delay: f64) -> Twist {
-        let departure = self.at.departure(sample, delay + self.at.later(drive));
-        self.shift.as_ref().map_or(departure, |shift| departure + shift[index])
+    /// Departure of the twist (paper's frame) during each sample, for the belt lag of `drive` and a
+    /// pose delay, s.
+    pub fn departures(&self, samples: &Arc<[Sample]>, drive: &Drive, delay: f64) -> Arc<[Twist]> {
+        let departures = self.at.departures(samples, delay + self.at.later(drive));
+        let Some(shift) = &self.shift else { return departures };
+        departures.iter().zip(&**shift).map(|(departure, shift)| *departure + *shift).collect()
     }
 }
 

@@ -145,7 +145,7 @@ impl Stage<'_> {
         let residual = |added| self.residual(&added, base);
         let off = residual(*start);
         let converged = self.settings.balance_tolerance;
-        let balanced = Tolerance { converged, rounding: converged };
+        let balanced = Tolerance { converged, rounding: converged, is_trusting: true };
         if let Some(known) = known
             && known.leaves * off.norm() <= balanced.converged
         {

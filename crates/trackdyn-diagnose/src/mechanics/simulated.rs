@@ -1,15 +1,16 @@
 //! A simulated inertial departure: transient minus stationary motion of one robot.
 
 use super::belts::lagging;
-use super::motion_over;
 use super::sheared::{self, Without};
+use super::{TASK, motion_over};
 use crate::evidence::{Evidence, Sample};
 use crate::hypothesis::{Unknown, typical_size, value};
 use crate::settings;
 use crate::surface::Surface;
 use nalgebra::Vector3;
 use rayon::prelude::*;
-use std::sync::OnceLock;
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
 use trackdyn_core::{PerSide, Plant, Pose, Side, Trajectory, Twist};
 use trackdyn_model::contact::Resolution;
@@ -24,23 +25,31 @@ use trackdyn_recording::{TrackSample, smoothed};
 struct Steps {
     /// Longest step, s.
     longest: f64,
-    /// Estimated error of the twist above which a step is halved, m/s.
+    /// Shortest step for accuracy, s.
+    shortest: f64,
+    /// Estimated error of the twist above which a step is shortened, m/s.
     tolerance: f64,
 }
 
 impl Steps {
-    /// Steps of the transient motion itself. With the defaults the departure agrees with that of 2
-    /// ms steps to one standard deviation of laboratory sensors over eight minutes of driving.
-    /// Belts jump at each reading and on dry friction a body follows in milliseconds: longer steps
-    /// would skip that, unseen by the error estimate.
+    /// Steps of the transient motion itself. With the defaults the departure agrees with that of
+    /// steps of 2 ms to one standard deviation of laboratory sensors over a minute of driving.
     fn fine(settings: &settings::Mechanics) -> Self {
-        Self { longest: settings.max_step, tolerance: settings.step_tolerance }
+        Self {
+            longest: settings.max_step,
+            shortest: settings.min_step,
+            tolerance: settings.step_tolerance,
+        }
     }
 
     /// Steps for shear-stress laws. With the defaults they err by nine of these standard
     /// deviations, but alike with and without a law, so that the errors cancel.
     fn coarse(settings: &settings::Mechanics) -> Self {
-        Self { longest: settings.max_sheared_step, tolerance: settings.sheared_step_tolerance }
+        Self {
+            longest: settings.max_step,
+            shortest: settings.min_sheared_step,
+            tolerance: settings.sheared_step_tolerance,
+        }
     }
 }
 
@@ -70,6 +79,16 @@ fn level(vehicle: &Vehicle) -> f64 {
     (vehicle.friction.across * vehicle.friction.along).sqrt()
 }
 
+/// Departures of samples at one delay.
+struct Departures {
+    samples: Arc<[Sample]>,
+    delay: f64,
+    twists: Arc<[Twist]>,
+}
+
+/// Delays whose departures are kept: that of a fit, and a step to either side.
+const DELAYS: usize = 3;
+
 /// A simulated inertial departure.
 pub struct Inertia {
     /// The effects of inertia.
@@ -94,6 +113,8 @@ pub struct Inertia {
     steady: Vec<Vec<Twist>>,
     /// Sums of forces in these, nonzero by the error of the table, computed on demand.
     left: OnceLock<Vec<Vec<Vector3<f64>>>>,
+    /// Departures that were asked for last.
+    departures: Mutex<VecDeque<Departures>>,
     settings: settings::Mechanics,
 }
 
@@ -125,6 +146,7 @@ impl Inertia {
             surface,
             steady,
             left: OnceLock::new(),
+            departures: Mutex::default(),
             settings,
         };
         Ok((simulated, steps))
@@ -282,8 +304,30 @@ impl Inertia {
         found.map(|(_, steps)| steps).unwrap_or_default()
     }
 
+    /// Transient minus stationary motion, as a twist (paper's frame) over each sample, at a delay
+    /// of the poses, s. Most predictions of a fit ask for the same ones, so they are kept.
+    pub fn departures(&self, samples: &Arc<[Sample]>, delay: f64) -> Arc<[Twist]> {
+        let kept = || self.departures.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_asked = |one: &&Departures| one.delay == delay && Arc::ptr_eq(&one.samples, samples);
+        if let Some(known) = kept().iter().find(is_asked) {
+            return Arc::clone(&known.twists);
+        }
+        // Unlocked: a job of the thread pool taken up in between may ask, too.
+        let of = |sample: &Sample| self.departure(sample, delay);
+        let twists: Arc<[Twist]> =
+            samples.par_iter().with_min_len(TASK).map(of).collect::<Vec<_>>().into();
+        let mut kept = kept();
+        kept.truncate(DELAYS - 1);
+        kept.push_front(Departures {
+            samples: Arc::clone(samples),
+            delay,
+            twists: Arc::clone(&twists),
+        });
+        twists
+    }
+
     /// Transient minus stationary motion, as a twist over a sample.
-    pub fn departure(&self, sample: &Sample, delay: f64) -> Twist {
+    fn departure(&self, sample: &Sample, delay: f64) -> Twist {
         let (from, until) = (sample.start, sample.start + sample.duration);
         let path = &self.paths[sample.run];
         let moved = path.pose_at(from - delay).relative(&path.pose_at(until - delay));
@@ -350,7 +394,7 @@ fn path_in_time(
     let start = surface.motion(first.speeds()).twist(&[0.0; 3]);
     let mut robot = Transient::at_rest(model, first.t, Pose::default())
         .with_step(steps.longest)
-        .with_tolerance(steps.tolerance)
+        .with_tolerance(steps.tolerance, steps.shortest)
         .with_creep(creep)
         .with_twist(start)
         .with_steps();

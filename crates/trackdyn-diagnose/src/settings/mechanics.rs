@@ -25,15 +25,18 @@ group! {
         probes: usize = 200, "", [1.0, 1e6],
             "Headings recur.";
         /// Longest step in time.
-        max_step: f64 = 0.01, "s", [1e-4, 1.0],
+        max_step: f64 = 0.05, "s", [1e-4, 1.0],
+            "Readings rarely come later.";
+        /// Shortest step in time for accuracy.
+        min_step: f64 = 0.0025, "s", [1e-6, 1.0],
             "Bodies follow belts in milliseconds.";
-        /// Twist error from which a step is halved.
+        /// Twist error from which a step is shortened.
         step_tolerance: f64 = 1e-3, "m/s", [1e-9, 1.0],
             "As good as steps of 2 ms.";
-        /// Longest step beside shear laws.
-        max_sheared_step: f64 = 0.05, "s", [1e-4, 1.0],
+        /// Shortest step beside shear laws.
+        min_sheared_step: f64 = 0.0125, "s", [1e-6, 1.0],
             "Errors with and without a law cancel.";
-        /// Twist error from which such a step is halved.
+        /// Twist error from which such a step is shortened.
         sheared_step_tolerance: f64 = 5e-3, "m/s", [1e-9, 1.0],
             "Errors cancel.";
         /// Change, in typical sizes, over which a motion in time serves.

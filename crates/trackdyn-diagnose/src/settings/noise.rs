@@ -12,7 +12,7 @@ group! {
             "Outliers then count little.",
             "Higher: outliers raise the noise.";
         /// Smallest deviations of a pose, and of the walk in a second.
-        min_deviations: [f64; 2] = [3e-4, 3e-4], "m, rad", [0.0, 1.0],
+        min_deviations: [f64; 2] = [3e-4, 1e-4], "m, rad", [0.0, 1.0],
             "Motions in time err by a third of that.",
             "Lower: in poses without noise, arithmetic looks like physics; higher: power is lost.";
         /// Squared whitened residual from which a pose may be an outlier.

@@ -54,14 +54,11 @@ static FAR_FIELD_COARSE: LazyLock<[Rule; NODES_BY_DISTANCE.len()]> =
 /// Resolves a shear stress that builds up over a percent of the track's length.
 static FINE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(8, 24));
 
-/// Resolves a shear stress that builds up over a few percent of the length, to a thousandth of the
-/// change by the law, in a quarter of the time of [`FINE`].
-static COARSE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(4, 12));
+/// Resolves the change by a law to half a percent, and where a stress builds up over a few percent
+/// of the length to one percent, in an eighth of the time of [`FINE`].
+static COARSE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(2, 8));
 
-/// [`COARSE`] for a patch hardly longer than wide.
-static COARSE_SHORT: LazyLock<Rule> = LazyLock::new(|| Rule::graded(6, 8));
-
-/// Resolves the change by a law to a few hundredths, in an eighth of the time of [`COARSE`].
+/// Resolves the change by a law to a tenth, in a third of the time of [`COARSE`].
 static ROUGH: LazyLock<Rule> = LazyLock::new(|| Rule::graded(1, 5));
 
 /// [`ROUGH`] for a patch hardly longer than wide.
@@ -73,9 +70,10 @@ pub enum Resolution {
     /// Base law to all digits; changes by other laws as accurately as their kinks allow.
     #[default]
     Fine,
-    /// Base law to eight digits, changes by other laws to a thousandth: for noisy data.
+    /// Base law to eight digits, changes by other laws to a percent: for noisy data, on a ground
+    /// whose law is never known that well.
     Coarse,
-    /// Base law to eight digits, changes by other laws to a few hundredths: for corrections.
+    /// Base law to eight digits, changes by other laws to a tenth: for corrections.
     Rough,
 }
 
@@ -119,8 +117,7 @@ pub fn departure_wrench<S: Scalar>(
         let is_short = patch.length().value() < 2.0 * patch.width();
         let rule = match (resolution, is_short) {
             (Resolution::Fine, _) => &FINE,
-            (Resolution::Coarse, false) => &COARSE,
-            (Resolution::Coarse, true) => &COARSE_SHORT,
+            (Resolution::Coarse, _) => &COARSE,
             (Resolution::Rough, false) => &ROUGH,
             (Resolution::Rough, true) => &ROUGH_SHORT,
         };

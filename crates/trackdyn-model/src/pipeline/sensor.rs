@@ -19,12 +19,20 @@ pub struct Sensor {
 impl Sensor {
     /// Reported twist, in the sensor's axes, for a twist of the hull.
     pub fn reported(&self, twist: &Twist) -> Twist {
-        let [v_x, v_y] = twist.velocity_at(self.lever);
+        self.reporting()(twist)
+    }
+
+    /// [`Sensor::reported`], for many twists.
+    pub fn reporting(&self) -> impl Fn(&Twist) -> Twist + use<> {
+        let Self { lever, yaw_rate_bias, .. } = *self;
         let (sin, cos) = self.yaw.sin_cos();
-        Twist {
-            v_x: cos * v_x + sin * v_y,
-            v_y: cos * v_y - sin * v_x,
-            w: twist.w + self.yaw_rate_bias,
+        move |twist| {
+            let [v_x, v_y] = twist.velocity_at(lever);
+            Twist {
+                v_x: cos * v_x + sin * v_y,
+                v_y: cos * v_y - sin * v_x,
+                w: twist.w + yaw_rate_bias,
+            }
         }
     }
 

@@ -6,7 +6,7 @@ use nalgebra::{SMatrix, SVector, Vector3};
 use trackdyn_core::{Dual, PerSide, Scalar, Twist};
 
 /// Tolerance of the residual over the weight: 10⁻⁹ of gravity moves no robot.
-const TOLERANCE: Tolerance = Tolerance { converged: 1e-11, rounding: 1e-9 };
+const TOLERANCE: Tolerance = Tolerance { converged: 1e-11, rounding: 1e-9, is_trusting: false };
 
 /// Number of unknowns without belt slip: departure of the twist from straight driving at the left
 /// belt's speed.

@@ -66,8 +66,8 @@ impl std::fmt::Display for NoDifference {
             ),
             Self::NotCloser { without, with } => write!(
                 f,
-                "with it SIM predicts REAL no better: error {with:.2} times the noise, {without:.2} \
-                 without"
+                "with it SIM predicts REAL no better: error {with:.2} times the noise, \
+                 {without:.2} without"
             ),
         }
     }

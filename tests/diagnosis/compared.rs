@@ -10,6 +10,9 @@ use trackdyn_drive::sensors::Preset;
 use trackdyn_model::{EffectId, Vehicle};
 use trackdyn_tests::concealed::{Drive, examined, owned, runs, sensors};
 
+/// What is expected to be named, what is concealed, and what changes of the vehicle.
+type Case = (&'static str, &'static [&'static str], fn(&mut Vehicle));
+
 /// A robot with something concealed, and with other numbers.
 fn set(concealed: &[&str], seed: u64, change: fn(&mut Vehicle)) -> Examination {
     let file = owned(&[]);
@@ -63,7 +66,7 @@ fn equal_robots_differ_in_nothing() {
 fn what_differs_is_named_or_stands_in_its_class() {
     let plain = set(&[], 20, |_| ());
     let none: fn(&mut Vehicle) = |_| ();
-    let cases: [(&str, &[&str], fn(&mut Vehicle)); 8] = [
+    let cases: [Case; 8] = [
         ("friction-anisotropy", &[], |vehicle| vehicle.friction.across *= 1.25),
         ("cog-shift", &[], |vehicle| vehicle.cog[1] += 0.04),
         ("cog-shift", &[], |vehicle| vehicle.cog[0] += 0.03),

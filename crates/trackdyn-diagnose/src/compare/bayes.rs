@@ -5,7 +5,8 @@
 //!
 //! none: N(l₁; m, s₁²) N(l₂; m, s₂²),  first alone: N(l₁; m, p² + s₁²) N(l₂; m, s₂²),
 //! two: N(l₁; m, p² + s₁²) N(l₂; m, p² + s₂²),
-//! the same: N(l₁ − l₂; 0, s₁² + s₂²) N(l̄; m, p² + s̄²), l̄ the weighted mean, 1/s̄² = 1/s₁² + 1/s₂²
+//! the same: N(l₁ − l₂; 0, s₁² + s₂²) N(l̄; m, p² + s̄²), with l̄ the weighted mean of both and
+//! 1/s̄² = 1/s₁² + 1/s₂²
 
 use crate::normal::Prior;
 use std::f64::consts::TAU;

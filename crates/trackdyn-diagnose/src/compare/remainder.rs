@@ -25,7 +25,8 @@ use trackdyn_model::effect::Symmetry;
 pub struct Remainder {
     /// Tests of all symmetries for which both sets have contrasts.
     pub tests: Vec<SymmetryTest>,
-    /// Largest family-wise p of a symmetry in which they differ, and of one in which they surely do.
+    /// Largest family-wise p of a symmetry in which they differ, and of one in which they surely
+    /// do.
     pub max_p: [f64; 2],
     /// Chi-squared that may be left in one symmetry: by the form of the laws and of what both sets
     /// depart by alike, and by the noise.

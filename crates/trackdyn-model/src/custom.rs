@@ -14,7 +14,7 @@
 //! use trackdyn_model::{ActiveEffect, EffectId};
 //!
 //! let strength = Declared::size("strength", "N s2/m2", 20.0).within([0.0, 1e4]);
-//! let law = CustomLaw::force("water-drag", "Drag of water", [strength], |at, values, adds| {
+//! let law = CustomLaw::force("water-drag", "Drag of water", &[strength], |at, values, adds| {
 //!     let speed = at.column(Argument::ForwardSpeed);
 //!     for (force, v) in adds.column(0).iter_mut().zip(speed) {
 //!         *force = -values[0] * v * v.abs();

@@ -125,6 +125,7 @@ def test_exceptions_come_out_as_they_are(robot):
         td.law("my-end", parameters=SIZE)(lambda at, strength: 1 // 0)
 
 
+@pytest.mark.filterwarnings("ignore:invalid value")
 def test_what_is_no_result_is_refused_by_law_and_value(robot):
     for adds, said in [
         (lambda at, strength: at.v_forward, "1 results: expected force forward"),

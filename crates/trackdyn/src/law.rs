@@ -5,7 +5,7 @@
 //! use trackdyn::{SimulateSettings, Vehicle, simulate};
 //!
 //! let strength = Declared::size("strength", "N s2/m2", 20.0).within([0.0, 1e4]);
-//! let drag = CustomLaw::force("my-drag", "Drag of water", [strength], |at, values, adds| {
+//! let drag = CustomLaw::force("my-drag", "Drag of water", &[strength], |at, values, adds| {
 //!     let speed = at.column(Argument::ForwardSpeed);
 //!     for (force, v) in adds.column(0).iter_mut().zip(speed) {
 //!         *force = -values[0] * v * v.abs();
@@ -15,7 +15,6 @@
 //! trackdyn::law::register(drag)?;
 //! let robot = Vehicle::auriga_alpha().with_effect("my-drag:strength=30")?;
 //! # let settings = SimulateSettings { runs: Some(1), duration: Some(3.0), ..Default::default() };
-//! # let _ = settings.seed;
 //! let log = simulate(&robot, &settings)?.recording;
 //! # assert!(log.motion().is_some());
 //! # Ok::<(), Box<dyn std::error::Error>>(())

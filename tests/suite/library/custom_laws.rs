@@ -65,9 +65,9 @@ fn viscous(at: &Batch, values: &[f64], adds: &mut Results) -> Adds {
 fn twins() -> Vec<[ActiveEffect; 2]> {
     let size = |key: &str, typical| [Declared::size(key, "1", typical).within([0.0, 10.0])];
     let made = [
-        (CustomLaw::force("my-turn", "", size("strength", 1.0), turning), "centripetal"),
-        (CustomLaw::force("my-roll", "", size("coefficient", 0.05), rolling), "motion-resistance"),
-        (CustomLaw::friction("my-oil", "", size("growth", 0.5), viscous), "viscous-friction"),
+        (CustomLaw::force("my-turn", "", &size("strength", 1.0), turning), "centripetal"),
+        (CustomLaw::force("my-roll", "", &size("coefficient", 0.05), rolling), "motion-resistance"),
+        (CustomLaw::friction("my-oil", "", &size("growth", 0.5), viscous), "viscous-friction"),
     ];
     let made = made.into_iter().map(|(law, twin)| {
         let law = law.expect("it can be defined");
@@ -165,7 +165,7 @@ fn a_copy_of_a_law_breaks_the_symmetries_of_its_twin() {
         assert_eq!(copy.card().breaks, twin.card().breaks, "{copy}");
     }
     let places = [Declared::size("rise", "1/m", 0.1), Declared::size("fade", "1/s", 0.1)];
-    let patch = CustomLaw::friction("my-patch", "", places, |at, values, adds| {
+    let patch = CustomLaw::friction("my-patch", "", &places, |at, values, adds| {
         let (x, time) = (at.column(Argument::PointX), at.column(Argument::Time));
         let heading = at.column(Argument::Heading);
         for place in [0, 1] {
@@ -192,7 +192,7 @@ fn a_law_is_written_and_read_like_one_of_the_catalogue() {
     assert_eq!(VehicleFile::from_document(&document).expect("it is known"), file);
     // registered again, the vehicle keeps its law and texts mean the new one
     let size = Declared::size("strength", "1", 3.0).within([0.0, 10.0]);
-    let again = CustomLaw::force("my-turn", "", [size], turning).expect("defined");
+    let again = CustomLaw::force("my-turn", "", &[size], turning).expect("defined");
     let again = EffectId::register(again).expect("registered");
     assert_ne!(again, copy.effect());
     file.effects.insert(ActiveEffect::of(again, &[]).expect("typical"));
@@ -208,7 +208,7 @@ fn a_law_is_written_and_read_like_one_of_the_catalogue() {
 #[test]
 fn what_no_law_can_be_is_refused_by_name() {
     let refused = |id: &str, parameter: Declared| {
-        let law = CustomLaw::force(id, "", [parameter], turning);
+        let law = CustomLaw::force(id, "", &[parameter], turning);
         let law = law.and_then(|law| EffectId::register(law).map(|_| ()));
         law.expect_err("it cannot be").to_string()
     };

@@ -157,13 +157,10 @@ impl Argument {
     /// Size below which it counts as small, in its unit: the unit of a step.
     pub(super) fn scale(self) -> f64 {
         match self {
-            Self::ForwardSpeed | Self::LateralSpeed | Self::YawRate => 0.1,
-            Self::LeftBelt | Self::RightBelt | Self::Belt => 0.1,
-            Self::SlipForward | Self::SlipLateral | Self::SlipSpeed => 0.1,
-            Self::X | Self::Y | Self::Heading | Self::Time => 1.0,
-            Self::PointForward | Self::PointLateral | Self::PointX | Self::PointY => 0.1,
             Self::LeftLoad | Self::RightLoad => 100.0,
             Self::Pressure => 1000.0,
+            // speeds and places
+            _ => 0.1,
         }
     }
 }

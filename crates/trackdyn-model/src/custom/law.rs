@@ -32,32 +32,32 @@ impl CustomLaw {
     ///
     /// # Errors
     /// [`DefinitionError`] for a name or a parameter that cannot be.
-    pub fn force<const P: usize>(
+    pub fn force(
         id: &str,
         title: &str,
-        parameters: [Declared; P],
+        parameters: &[Declared],
         function: impl Fn(&Batch, &[f64], &mut Results) -> Result<(), Box<dyn Error + Send + Sync>>
         + Send
         + Sync
         + 'static,
     ) -> Result<Self, DefinitionError> {
-        Self::new(Kind::Force, id, title, &parameters, function)
+        Self::new(Kind::Force, id, title, parameters, function)
     }
 
     /// Factors on the friction: see [`Kind::Friction`].
     ///
     /// # Errors
     /// [`DefinitionError`] for a name or a parameter that cannot be.
-    pub fn friction<const P: usize>(
+    pub fn friction(
         id: &str,
         title: &str,
-        parameters: [Declared; P],
+        parameters: &[Declared],
         function: impl Fn(&Batch, &[f64], &mut Results) -> Result<(), Box<dyn Error + Send + Sync>>
         + Send
         + Sync
         + 'static,
     ) -> Result<Self, DefinitionError> {
-        Self::new(Kind::Friction, id, title, &parameters, function)
+        Self::new(Kind::Friction, id, title, parameters, function)
     }
 
     /// A law that is called with a batch of states and the values of its parameters, in their

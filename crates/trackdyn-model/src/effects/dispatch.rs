@@ -42,15 +42,24 @@ macro_rules! catalogue {
             }
 
             fn body(&self, vehicle: &mut Vehicle) {
-                match self { $(Self::$effect(effect) => effect.body(vehicle),)+ Self::Custom(_) => {} }
+                match self {
+                    $(Self::$effect(effect) => effect.body(vehicle),)+
+                    Self::Custom(_) => {}
+                }
             }
 
             fn drive(&self, drive: &mut Drive) {
-                match self { $(Self::$effect(effect) => effect.drive(drive),)+ Self::Custom(_) => {} }
+                match self {
+                    $(Self::$effect(effect) => effect.drive(drive),)+
+                    Self::Custom(_) => {}
+                }
             }
 
             fn sense(&self, sensor: &mut Sensor) {
-                match self { $(Self::$effect(effect) => effect.sense(sensor),)+ Self::Custom(_) => {} }
+                match self {
+                    $(Self::$effect(effect) => effect.sense(sensor),)+
+                    Self::Custom(_) => {}
+                }
             }
 
             fn rigid_body(&self, body: &mut RigidBody) {
@@ -61,7 +70,10 @@ macro_rules! catalogue {
             }
 
             fn ground(&self, ground: &mut Ground) {
-                match self { $(Self::$effect(effect) => effect.ground(ground),)+ Self::Custom(_) => {} }
+                match self {
+                    $(Self::$effect(effect) => effect.ground(ground),)+
+                    Self::Custom(_) => {}
+                }
             }
 
             #[inline]

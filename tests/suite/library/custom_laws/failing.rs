@@ -17,7 +17,7 @@ fn settings() -> SimulateSettings {
 /// A robot with a law that fails in the wanted way, though not at its typical strength.
 fn robot(id: &str, fails: fn(f64) -> Result<f64, String>) -> Vehicle {
     let size = Declared::size("strength", "N", 1.0);
-    let law = CustomLaw::force(id, "", [size], move |at, values, adds| {
+    let law = CustomLaw::force(id, "", &[size], move |at, values, adds| {
         for (force, v) in adds.column(0).iter_mut().zip(at.column(Argument::ForwardSpeed)) {
             *force = if values[0] > 1.0 { fails(*v)? } else { 0.0 };
         }
@@ -68,7 +68,7 @@ fn a_failure_leaves_nothing_behind() {
 #[test]
 fn a_law_that_fails_at_once_is_not_registered() {
     let size = Declared::size("strength", "N", 1.0);
-    let law = CustomLaw::force("my-doubt", "", [size], |_, _, _| Err("never".into()));
+    let law = CustomLaw::force("my-doubt", "", &[size], |_, _, _| Err("never".into()));
     let error = register(law.expect("defined")).expect_err("it fails").to_string();
     assert!(error.contains("my-doubt") && error.contains("never"), "{error}");
     assert!(trackdyn::EffectId::of("my-doubt").is_none());

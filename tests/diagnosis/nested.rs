@@ -10,6 +10,7 @@ use trackdyn_diagnose::search::Search;
 use trackdyn_diagnose::{Settings, Weighted};
 use trackdyn_drive::sensors::Preset;
 use trackdyn_drive::{ScheduleKind, ScheduleOptions};
+use trackdyn_model::EffectId;
 use trackdyn_tests::concealed::{Drive, owned, sensors};
 
 /// Rise of twice the objective that is rounding, and the end of a descent.
@@ -30,7 +31,7 @@ fn search(concealed: &[&str], seed: u64) -> Search {
     let evidence =
         with_remaining_noise(&evidence, &base.fit, &Watch::none()).expect("not cancelled");
     let base = base.refitted(&evidence);
-    let tried = candidates(&base.instruments, &evidence);
+    let tried = candidates(&EffectId::all().collect::<Vec<_>>(), &base.instruments, &evidence);
     let entries = Beside::new(&base.fit.hypothesis, &evidence).signatures(&tried);
     Search::new(evidence, base, Catalogue { entries })
 }

@@ -132,7 +132,7 @@ fn separations(found: &Diagnosis, effect: EffectId) -> Vec<(EffectId, f64)> {
     let parameters = effect.card().parameters;
     let sizes = own.sizes().into_iter().map(|k| own.values[k] - neutral(&parameters[k]));
     let sizes = DVector::from_iterator(own.sizes().len(), sizes);
-    let others = candidates(&base.instruments, evidence);
+    let others = candidates(&EffectId::all().collect::<Vec<_>>(), &base.instruments, evidence);
     let others = others.into_iter().filter(|other| other.effect != effect);
     let tried: Vec<Variant> = std::iter::once(own).chain(others).collect();
     let entries = Beside::new(&base.fit.hypothesis, evidence).signatures(&tried);

@@ -1,6 +1,5 @@
 //! What goes wrong, raised by kind in the words of the library.
 
-use crate::laws::exception;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use trackdyn::Error;
@@ -64,9 +63,9 @@ pub fn raised(error: impl Into<Error>) -> PyErr {
     let error = error.into();
     if let Error::Law(failure) = &error
         && let Cause::Raised(cause) = &failure.cause
-        && let Some(exception) = exception(&**cause)
+        && let Some(exception) = cause.downcast_ref::<PyErr>()
     {
-        return exception;
+        return Python::attach(|py| exception.clone_ref(py));
     }
     with_class(class(&error), &error.to_string(), error.setting())
 }

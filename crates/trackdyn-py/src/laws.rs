@@ -10,7 +10,6 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use retraced::Retraced;
-use std::error::Error;
 use tape::{Step, Tape};
 use trackdyn::crates::model::effect::Role;
 use trackdyn::law::{Argument, Batch, CustomLaw, Declared, Kind, Results, register};
@@ -150,10 +149,4 @@ fn called(
     }
     adds.copy_from_slice(found);
     Ok(())
-}
-
-/// The exception that a function of Python raised; none where it was another failure.
-pub fn exception(cause: &(dyn Error + Send + Sync + 'static)) -> Option<PyErr> {
-    let error = cause.downcast_ref::<PyErr>()?;
-    Some(Python::attach(|py| error.clone_ref(py)))
 }

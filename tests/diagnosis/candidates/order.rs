@@ -7,6 +7,7 @@ use trackdyn_diagnose::fit::Fit;
 use trackdyn_diagnose::progress::Watch;
 use trackdyn_diagnose::search::{Found, Search};
 use trackdyn_diagnose::{Settings, Weighted};
+use trackdyn_model::EffectId;
 
 use trackdyn_estimate::synthetic::{Synthetic, random_steps};
 use trackdyn_model::{Effects, VehicleFile};
@@ -41,7 +42,7 @@ fn both_ways() -> [Found; 2] {
         .expect("enough");
     let evidence = Weighted::new(evidence);
     let base = Base::new(&file, &evidence, &Watch::none()).expect("not cancelled");
-    let tried = candidates(&base.instruments, &evidence);
+    let tried = candidates(&EffectId::all().collect::<Vec<_>>(), &base.instruments, &evidence);
     let mut entries = Beside::new(&base.fit.hypothesis, &evidence).signatures(&tried);
     [false, true].map(|is_reversed| {
         if is_reversed {

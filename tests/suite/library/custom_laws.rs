@@ -162,7 +162,13 @@ fn a_copy_of_a_law_has_its_motion_in_time() {
 #[test]
 fn a_copy_of_a_law_breaks_the_symmetries_of_its_twin() {
     for [copy, twin] in twins() {
-        assert_eq!(copy.card().breaks, twin.card().breaks, "{copy}");
+        let mut breaks = twin.card().breaks.to_vec();
+        if copy.card().id == "my-roll" {
+            // Its levers are those of a robot whose centre of gravity is off the middle.
+            breaks.push(Symmetry::Mirror);
+            breaks.sort_unstable();
+        }
+        assert_eq!(copy.card().breaks, breaks, "{copy}");
     }
     let places = [Declared::size("rise", "1/m", 0.1), Declared::size("fade", "1/s", 0.1)];
     let patch = CustomLaw::friction("my-patch", "", &places, |at, values, adds| {

@@ -26,7 +26,7 @@ fn a_suspect_that_the_catalogue_does_not_have_is_named() {
     let driving = SimulateSettings {
         runs: Some(1),
         duration: Some(25.0),
-        sensors: Preset::Perfect.sensors(),
+        sensors: Preset::Laboratory.sensors(),
         seed: 3,
         ..SimulateSettings::default()
     };
@@ -35,8 +35,10 @@ fn a_suspect_that_the_catalogue_does_not_have_is_named() {
     let found = diagnose(&[log], &model, &settings).expect("it can be diagnosed");
     let claims: Vec<_> = found.claims().collect();
     let named: Vec<_> = claims.iter().map(trackdyn::Claim::one_of).collect();
-    assert_eq!(found.status(), Status::Explained, "{named:?}");
-    assert!(named.len() == 1 && named[0] == ["my-hull"], "{named:?}");
-    let size = claims[0].sizes()[0];
+    // Poses of a laboratory are late, too: by a clock, or behind a slow drivetrain.
+    let hull = claims.iter().find(|claim| claim.one_of() == ["my-hull"]);
+    let hull = hull.unwrap_or_else(|| panic!("{named:?}"));
+    assert!(claims.len() <= 2 && found.status() != Status::Unexplained, "{named:?}");
+    let size = hull.sizes()[0];
     assert!(size.low < 400.0 && 400.0 < size.high, "{size:?}");
 }

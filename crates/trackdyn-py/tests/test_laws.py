@@ -218,7 +218,7 @@ def test_a_suspect_is_named(snow, model):
 def test_a_copy_is_in_the_set_of_its_twin(model):
     """A log that was made with the law of the catalogue."""
     oily = model.with_effect("viscous-friction", growth_s_per_m=0.8)
-    log = td.simulate(oily, runs=1, duration=25.0, sensors="perfect", seed=3).recording
+    log = td.simulate(oily, runs=2, duration=25.0, seed=4).recording
     found = td.diagnose(log, model, laws=[lawful.my_oil], draws=1000, held_out="none")
     twins = [claim for claim in found.claims if "my-oil" in claim.one_of]
     assert twins and "viscous-friction" in twins[0].one_of, repr(found)

@@ -115,6 +115,7 @@ def _diagnose(diagnose: DiagnoseLike) -> dict[str, Any] | None:
         "draws": _values.count("draws", keywords.get("draws", 2000)),
         "seed": seed_of(keywords.get("seed", 1)),
         "settings": settings,
+        "laws": [],
     }
     try:
         _trackdyn.diagnose([], Vehicle(Vehicle.names()[0])._inner, full, None)

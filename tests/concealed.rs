@@ -167,9 +167,23 @@ pub fn diagnosed_by(
     file: &VehicleFile,
     settings: &Settings,
 ) -> Result<Diagnosis, Error> {
-    let held_out = every_fourth(recording.runs().len());
-    let evidence = Evidence::of_recording(recording, file.vehicle.gauge, settings)?;
-    diagnose(&evidence, file, &Options { held_out, ..Options::default() }, &unobserved)
+    of_evidence(&Evidence::of_recording(recording, file.vehicle.gauge, settings)?, file)
+}
+
+/// The diagnosis of a recording whose gyroscope corrects the yaw of its poses.
+///
+/// # Errors
+/// Why there is none.
+pub fn diagnosed_by_gyroscope(
+    recording: &Recording,
+    file: &VehicleFile,
+) -> Result<Diagnosis, Error> {
+    of_evidence(&Evidence::by_gyroscope(recording, file.vehicle.gauge, &Settings::default())?, file)
+}
+
+fn of_evidence(evidence: &Evidence, file: &VehicleFile) -> Result<Diagnosis, Error> {
+    let held_out = every_fourth(evidence.runs().len());
+    diagnose(evidence, file, &Options { held_out, ..Options::default() }, &unobserved)
 }
 
 /// The diagnosis of a recording with its search, nothing held out.

@@ -13,12 +13,14 @@ use trackdyn_diagnose::{
     Diagnosis, DiagnosisFile, Error, Evidence, Options, Progress, Resampling, Settings, Stage,
     Status, diagnose,
 };
-use trackdyn_drive::sensors::Preset;
-use trackdyn_drive::{ScheduleKind, ScheduleOptions};
+use trackdyn_drive::sensors::{Imu, Preset};
+use trackdyn_drive::{ScheduleKind, ScheduleOptions, Sensors};
 use trackdyn_estimate::noise::noise;
 use trackdyn_model::kinematics::Source;
 use trackdyn_recording::Recording;
-use trackdyn_tests::concealed::{Drive, diagnosed, diagnosed_by, named, owned, sensors};
+use trackdyn_tests::concealed::{
+    Drive, diagnosed, diagnosed_by, diagnosed_by_gyroscope, named, owned, sensors,
+};
 
 /// Runs of a drive, and the time of each, s: short, and enough for two held-out runs. Half as many
 /// leave more open, and take longer.
@@ -27,6 +29,11 @@ const RUN_TIME: f64 = 15.0;
 
 /// A drive by hand on which this (`id:key=value`) is concealed.
 fn recording(concealed: &[&str]) -> Recording {
+    recording_by(concealed, &sensors(Preset::Laboratory))
+}
+
+/// Such a drive as these sensors see it.
+fn recording_by(concealed: &[&str], sensors: &Sensors) -> Recording {
     let options = ScheduleOptions {
         runs: Some(RUNS),
         seed: 3,
@@ -36,7 +43,7 @@ fn recording(concealed: &[&str]) -> Recording {
     let runs = ScheduleKind::Manual.generate(&options).expect("a schedule");
     let file = owned(concealed);
     let drive = Drive::new(&file.vehicle, concealed, &runs, 3).expect("it drives");
-    drive.recording(&sensors(Preset::Laboratory), 3)
+    drive.recording(sensors, 3)
 }
 
 /// A hundred poses, at 4 Hz, of one drive that neither rests nor runs steadily for long.
@@ -64,6 +71,30 @@ fn half_a_minute_without_rest_is_diagnosed() {
     for (found, truth) in seen.pose.into_iter().zip([3e-3, 3e-3, 0.1_f64.to_radians()]) {
         assert!((found.sqrt() / truth).ln().abs() < 0.5, "{seen:?}");
     }
+}
+
+/// The headings of a map are good to a degree: a drift of the friction hides in them, and shows
+/// with its size beside a gyroscope.
+#[test]
+fn a_gyroscope_shows_what_coarse_headings_hide() {
+    const RATE: f64 = 0.0008;
+    let concealed = format!("friction-drift:rate_1_per_s={RATE}");
+    let mut sensors = sensors(Preset::Laboratory);
+    sensors.pose.white.yaw = 1_f64.to_radians();
+    sensors.imu = Some(Imu::default());
+    let recording = recording_by(&[&concealed], &sensors);
+    let file = owned(&[&concealed]);
+    let without = diagnosed(&recording, &file).expect("an answer");
+    assert!(physics(&without).is_empty(), "{:?}", named(&without));
+    let with = diagnosed_by_gyroscope(&recording, &file).expect("an answer");
+    let is_one_of =
+        |one: &&Missing| one.verdict.one_of.iter().any(|of| of.name() == "friction-drift");
+    let drift = with.answer.missing.iter().find(is_one_of);
+    let drift = drift.unwrap_or_else(|| panic!("{:?}", named(&with)));
+    let [low, high] = [drift.parameters[0].low, drift.parameters[0].high];
+    assert!((low..=high).contains(&RATE), "{low} to {high}");
+    let found = with.evidence.seen.gyroscope().expect("asked").as_ref().expect("it serves");
+    assert!(found.error_with_it < 0.1 * found.error_of_poses, "{found}");
 }
 
 /// The diagnosis of a drive by hand on which this is concealed.

@@ -1,8 +1,10 @@
 //! Options that several commands share.
 
+mod method;
 mod replay;
 mod vehicle;
 
+pub use method::{MethodOptions, held_out};
 pub use replay::ReplayOptions;
 pub use vehicle::{GaugeOptions, ModelOptions, say_default};
 
@@ -220,6 +222,18 @@ impl RecordingOptions {
             note(format_args!("{warning}"));
         }
         Ok(recording)
+    }
+
+    /// Reads recordings in the same way, and takes of each the part that counts.
+    ///
+    /// # Errors
+    /// As [`RecordingOptions::read`], and a part that is not there.
+    pub fn read_all<'a>(
+        &self,
+        paths: impl IntoIterator<Item = &'a PathBuf>,
+        part: &Part,
+    ) -> Result<Vec<Recording>, trackdyn::Error> {
+        paths.into_iter().map(|path| self.read_path(path)?.part(part)).collect()
     }
 
     /// The options given, all of which are about recordings of motion.

@@ -65,7 +65,7 @@ impl Progress {
                 let bar = bar.get_or_init(|| {
                     // Stages take from a tenth of a second to minutes: what they have taken says
                     // nothing of what is left.
-                    let template = if self.total > 0 {
+                    let template = if stage.is_empty() {
                         "{bar:40} {pos} of {len}, {eta} left"
                     } else {
                         "{bar:40} {pos} of {len}, {elapsed}: {msg}"

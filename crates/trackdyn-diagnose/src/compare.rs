@@ -14,7 +14,6 @@ pub mod document;
 mod joint;
 mod quantity;
 mod remainder;
-mod spread;
 pub mod words;
 
 pub use bayes::Alternatives;
@@ -28,6 +27,7 @@ use crate::diagnosis::{Diagnosis, Examination};
 use crate::locate::cells::Cell;
 use crate::progress::{Cancelled, Stage, Watch};
 use crate::resampling::Resampling;
+use crate::uncertainty::Uncertainty;
 use choice::Choice;
 use std::collections::{BTreeMap, BTreeSet};
 use trackdyn_model::effect::Symmetry;
@@ -111,7 +111,9 @@ pub fn compare(
     watch: &Watch,
 ) -> Result<Comparison, Cancelled> {
     let choice = watch.try_stage(Stage::Differences, || Choice::best(both, watch))?;
-    let (groups, moved) = watch.stage(Stage::Differences, || quantity::groups(both, &choice))?;
+    let uncertainties = [0, 1].map(|k| Uncertainty::of(&both[k].search, &choice.fits[k]));
+    let (groups, moved) =
+        watch.stage(Stage::Differences, || quantity::groups(both, &choice, &uncertainties))?;
     let moved = moved.as_ref();
     let judged = difference::judge(both, &choice, groups.clone(), moved, resampling);
     let judged = closer::judge(both, &choice, judged);
@@ -143,7 +145,7 @@ pub fn compare(
         lacking.map(|k| (effect, k)).collect::<Vec<_>>()
     });
     let not_shown = not_shown.collect();
-    let instruments = quantity::instruments(both, &choice);
+    let instruments = quantity::instruments(both, &choice, &uncertainties);
     let diagnoses = both.map(|set| set.diagnosis.clone());
     Ok(Comparison {
         smallest: smallest(&diagnoses),

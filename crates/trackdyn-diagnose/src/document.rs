@@ -51,6 +51,9 @@ pub struct DiagnosisFile {
     /// Noise of the poses; absent in older files, and of tables of steady points.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise: Option<NoiseTable>,
+    /// What the gyroscope tells of the yaw of the poses; absent where it was not asked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gyroscope: Option<Table>,
     /// Smallest detectable size of each effect, by the keys of its sizes.
     #[serde(default)]
     pub detectable: BTreeMap<String, BTreeMap<String, f64>>,
@@ -206,6 +209,7 @@ impl DiagnosisFile {
             },
             drift: DriftTable::of(&diagnosis.evidence.drift),
             noise: diagnosis.evidence.seen.noise().map(NoiseTable::of),
+            gyroscope: None,
             detectable: sizes,
             settings: diagnosis.evidence.seen.settings().clone(),
             source: Some(Table::try_from(source).expect("a source is a table")),

@@ -13,6 +13,7 @@ use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use trackdyn_core::{PerSide, Pose};
+use trackdyn_estimate::gyroscope::{Gyroscope, Unfit};
 use trackdyn_estimate::regular::regularise;
 use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_recording::TrackSample;
@@ -84,6 +85,8 @@ pub struct Evidence {
     /// Whether places and headings are those of one world.
     has_world: bool,
     origin: Origin,
+    /// What the gyroscope tells of the yaw of the poses; none where it was not asked.
+    gyroscope: Option<Result<Gyroscope, Unfit>>,
     description: String,
     settings: Arc<Settings>,
 }
@@ -138,6 +141,17 @@ impl Evidence {
     /// Kind of its samples: segments of a drive, or points of steady motion.
     pub fn origin(&self) -> &Origin {
         &self.origin
+    }
+
+    /// What its gyroscope tells of the yaw of its poses, or why it does not serve; none where it
+    /// was not asked.
+    pub fn gyroscope(&self) -> Option<&Result<Gyroscope, Unfit>> {
+        self.gyroscope.as_ref()
+    }
+
+    /// The gyroscope that corrects the yaw of its poses.
+    pub(crate) fn serving_gyroscope(&self) -> Option<&Gyroscope> {
+        self.gyroscope().and_then(|found| found.as_ref().ok())
     }
 
     /// Settings by which it was made and is diagnosed.

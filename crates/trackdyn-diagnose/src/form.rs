@@ -81,6 +81,14 @@ impl Forms {
         }
     }
 
+    /// Forms beside another column that is free wherever they are.
+    pub fn beside(mut self, more: Option<(Column, Prior)>) -> Self {
+        let (columns, priors): (Vec<Column>, Vec<Prior>) = more.into_iter().unzip();
+        self.columns.extend(columns);
+        self.priors.extend(priors);
+        self
+    }
+
     /// Forms with this τ, whatever the evidence says of it.
     pub fn at(fit: &Fit, deviation: f64, catalogue: &Catalogue, evidence: &Weighted) -> Self {
         let (columns, shares) = columns(fit, deviation, catalogue, evidence);

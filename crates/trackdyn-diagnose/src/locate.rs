@@ -16,13 +16,14 @@ pub use contrasts::{Manoeuvre, Scales, contrasts, contrasts_within};
 pub use departures::Contrasts;
 pub use waves::Wave;
 
-use crate::equations::Stack;
+use crate::equations::{Equations, Stack};
 use crate::evidence::{Evidence, Sample};
 use crate::fit::Fit;
 use crate::form::Forms;
 use crate::mechanics::Instruments;
-use crate::normal::Prior;
+use crate::normal::{Normal, Prior};
 use crate::resampling::Resampling;
+use crate::settings;
 use crate::significance::{Test, test};
 use crate::weighted::Weighted;
 use nalgebra::Vector3;
@@ -118,32 +119,13 @@ impl Residual<'_> {
             of_groups.push(contrasts);
         }
         let equations = stack.equations(|columns| evidence.normal(residual, columns));
-        let mut projected = equations.projected();
-        let groups: Vec<(Contrasts, Vec<usize>)> =
-            of_groups.into_iter().zip(equations.groups.iter().cloned()).collect();
-        for (contrasts, own) in groups.iter().filter(|(contrasts, _)| !contrasts.beside.is_empty())
-        {
-            let is_plain = |(other, _): &&(Contrasts, Vec<usize>)| {
-                other.beside.is_empty() && contrasts.beside.contains(&other.symmetry)
-            };
-            let beside = groups.iter().filter(is_plain).flat_map(|(_, columns)| columns.clone());
-            projected = projected.cleared(own, &beside.collect::<Vec<_>>());
-        }
-        let tests = test(&projected, &equations.groups, resampling, settings);
+        let Tested { projected, tests } = Tested::new(&equations, &of_groups, resampling, settings);
         let together = [equations.groups.concat()];
         let all = test(&projected, &together, resampling.once(), settings);
-        let mut strongest: Vec<SymmetryTest> = Vec::new();
-        for ((Contrasts { symmetry, .. }, _), test) in groups.into_iter().zip(tests) {
-            match strongest.iter_mut().find(|other| other.symmetry == symmetry) {
-                Some(other) if test.is_stronger(&other.test) => other.test = test,
-                Some(_) => {}
-                None => strongest.push(SymmetryTest { symmetry, test }),
-            }
-        }
         Location {
             excess_over_noise: excess(evidence, residual),
             channels: channel_shares(evidence, residual),
-            tests: strongest,
+            tests,
             wave: None,
             explicable: all.first().map_or(0.0, |all| all.statistic - real(all.degrees)),
             max_p: [settings.max_p, settings.max_p_left_over],
@@ -172,6 +154,44 @@ impl Residual<'_> {
             location.wave = Some(wave);
         }
         location
+    }
+}
+
+/// Tests of contrasts that stand in the same normal equations, a group each.
+pub(crate) struct Tested {
+    /// The equations beside what is free, and contrasts beside the plainer ones of theirs.
+    pub projected: Normal,
+    /// The strongest test of each symmetry.
+    pub tests: Vec<SymmetryTest>,
+}
+
+impl Tested {
+    /// Tests the groups of these equations as one family: each is one of the `kinds`.
+    pub fn new(
+        equations: &Equations,
+        kinds: &[Contrasts],
+        resampling: Resampling,
+        settings: &settings::Location,
+    ) -> Self {
+        let mut projected = equations.projected();
+        let groups = || kinds.iter().zip(&equations.groups);
+        for (contrasts, own) in groups().filter(|(contrasts, _)| !contrasts.beside.is_empty()) {
+            let is_plain = |(other, _): &(&Contrasts, &Vec<usize>)| {
+                other.beside.is_empty() && contrasts.beside.contains(&other.symmetry)
+            };
+            let beside = groups().filter(is_plain).flat_map(|(_, columns)| columns.clone());
+            projected = projected.cleared(own, &beside.collect::<Vec<_>>());
+        }
+        let mut strongest: Vec<SymmetryTest> = Vec::new();
+        let tests = test(&projected, &equations.groups, resampling, settings);
+        for (&Contrasts { symmetry, .. }, test) in kinds.iter().zip(tests) {
+            match strongest.iter_mut().find(|other| other.symmetry == symmetry) {
+                Some(other) if test.is_stronger(&other.test) => other.test = test,
+                Some(_) => {}
+                None => strongest.push(SymmetryTest { symmetry, test }),
+            }
+        }
+        Self { projected, tests: strongest }
     }
 }
 

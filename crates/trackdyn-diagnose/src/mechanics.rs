@@ -26,7 +26,7 @@ use crate::evidence::{Evidence, Origin, Sample};
 use crate::hypothesis::{Hypothesis, Unknown};
 use crate::surface::{Steady, Surface};
 use belts::lagging;
-use ground::{Acts, acts, by_ground};
+use ground::{Acts, ByGround, acts};
 use inertia::{InertiaNear, Within};
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -56,7 +56,7 @@ pub struct Mechanics {
     steady: Arc<Vec<Vec<Steady>>>,
     drive: Drive,
     /// Departure of the twist during each sample by changing ground, paper's frame.
-    ground: Option<Arc<Vec<Twist>>>,
+    ground: Option<Arc<ByGround>>,
     /// Departure by inertia.
     in_time: InTime,
     /// Laws of the shear stress.
@@ -248,7 +248,8 @@ impl Mechanics {
                 effects.insert(effect);
             }
             let with = coarse(vehicle, effects);
-            Arc::new(by_ground(&with, &simple, &still.surface, &drive, evidence))
+            let known = before.and_then(|before| before.ground.as_deref());
+            Arc::new(ByGround::new([&with, &simple], &still.surface, &drive, evidence, known))
         });
         let inert = simple.effects().iter().filter(|effect| feels_inertia(vehicle, effect));
         let inert: Vec<ActiveEffect> = inert.cloned().collect();
@@ -330,7 +331,7 @@ impl Mechanics {
             .with_min_len(TASK)
             .map(|index| {
                 let sample = &samples[index];
-                let by_ground = self.ground.as_ref().map(|departures| departures[index]);
+                let by_ground = self.ground.as_ref().map(|ground| ground.departures[index]);
                 let by_inertia = by_inertia.as_ref().map(|departures| departures[index]);
                 let departure = [by_ground, by_inertia].into_iter().flatten().reduce(|a, b| a + b);
                 let departure = departure.map(|departure| seen_from(&departure, offset));

@@ -104,6 +104,7 @@ impl Search {
     pub fn found(&self, effects: Vec<EffectId>, fit: Fit) -> Found {
         let deviations = &self.evidence.settings().prior.form_deviations;
         let forms = Forms::of(&fit, deviations, &self.catalogue, &self.evidence);
+        let forms = forms.beside(self.evidence.shared_error());
         Found { effects, ln_evidence: fit.ln_evidence() + forms.gain, fit, forms }
     }
 
@@ -116,7 +117,7 @@ impl Search {
         } else {
             Forms::default()
         };
-        Found { forms, ..found }
+        Found { forms: forms.beside(self.evidence.shared_error()), ..found }
     }
 
     /// Normal equations of a hypothesis in its forms, extended by the signatures of these catalogue

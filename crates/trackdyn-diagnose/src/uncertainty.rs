@@ -1,17 +1,18 @@
 //! Confidence intervals of fitted parameters.
 
-use crate::equations::Equations;
+mod spread;
+
+pub(crate) use spread::Spread;
+
 use crate::evidence::Evidence;
 use crate::fit::Fit;
 use crate::hypothesis::Unknown;
-use crate::normal::{Normal, Solution, effective};
+use crate::normal::{Normal, effective};
 use crate::search::{Found, Search};
 use nalgebra::DVector;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::ops::Range;
-use trackdyn_core::real;
-use trackdyn_estimate::Interval as Student;
 use trackdyn_model::EffectId;
 
 /// A fitted parameter with its 95 % interval.
@@ -53,15 +54,13 @@ pub struct Level {
 pub struct Uncertainty<'a> {
     search: &'a Search,
     fit: &'a Fit,
+    spread: Spread,
     /// Half widths for a parabolic likelihood.
     halves: Vec<f64>,
 }
 
 /// Candidates for independent groups, as ranges of blocks: single blocks, and runs.
-pub(crate) fn groupings(
-    evidence: &Evidence,
-    counts: impl Fn(usize) -> bool,
-) -> [Vec<Range<usize>>; 2] {
+fn groupings(evidence: &Evidence, counts: impl Fn(usize) -> bool) -> [Vec<Range<usize>>; 2] {
     let blocks = (0..evidence.blocks()).filter(|&block| counts(block));
     let blocks: Vec<Range<usize>> = blocks.map(|block| block..block + 1).collect();
     let mut runs: BTreeMap<usize, Range<usize>> = BTreeMap::new();
@@ -80,7 +79,7 @@ pub(crate) fn groupings(
 ///
 /// # Law
 /// That of I_g = wᵀ J_g w, the information of a group, w the covariance of the unknown with all.
-pub(crate) fn shown_by(
+fn shown_by(
     normal: &Normal,
     groups: &[Range<usize>],
     columns: &[usize],
@@ -97,43 +96,22 @@ impl<'a> Uncertainty<'a> {
     /// Uncertainty of the best hypothesis.
     pub fn of(search: &'a Search, best: &'a Found) -> Self {
         let fit = &best.fit;
-        let Equations { normal, priors, .. } = search.equations(best, &[]);
-        let estimate = |normal: &Normal| normal.fit(&fit.free, &priors).estimate;
-        let Solution { estimate: whole, covariance, .. } = normal.fit(&fit.free, &priors);
-        // Beside noise, other forms of the laws are as free as the unknowns. The jackknife is of
-        // the laws as they stand.
-        let forms = fit.columns.len()..normal.columns();
-        let with_forms: Vec<usize> = fit.free.iter().copied().chain(forms).collect();
-        let in_forms = normal.fit(&with_forms, &priors).covariance;
-        let last = normal.columns();
-        let counts = |block: usize| normal.block(block)[(last, last)] != 0.0;
-        let half = |variance: f64, groups: usize| {
-            Student::new(0.0, variance.max(0.0).sqrt(), groups, 1).high
+        let spread = Spread::of(search, best);
+        let variances = fit.solution.covariance.diagonal();
+        let half = |place: usize| {
+            if fit.free.contains(&place) {
+                spread.half_of(place)
+            } else {
+                spread.half_unseen(variances[place])
+            }
         };
-        let groupings = groupings(&search.evidence, counts);
-        let mut noise = fit.solution.covariance.diagonal();
-        for (place, &k) in fit.free.iter().enumerate() {
-            noise[k] = in_forms[(place, place)];
-        }
-        let mut halves: Vec<f64> =
-            noise.iter().map(|variance| half(*variance, groupings[0].len())).collect();
-        let settings = search.settings();
-        for groups in groupings.iter().filter(|groups| groups.len() >= settings.limits.min_groups) {
-            let mut squares = DVector::zeros(whole.len());
-            for group in groups {
-                let change = estimate(&normal.without(group)) - &whole;
-                squares += change.component_mul(&change);
-            }
-            let share = 1.0 - real(groups.len()).recip();
-            for (place, &k) in fit.free.iter().enumerate() {
-                let shown =
-                    shown_by(&normal, groups, &fit.free, &covariance.column(place).into_owned());
-                if shown >= settings.verdict.min_blocks {
-                    halves[k] = halves[k].max(half(share * squares[place], groups.len()));
-                }
-            }
-        }
-        Self { search, fit, halves }
+        let halves = (0..fit.unknowns.len()).map(half).collect();
+        Self { search, fit, spread, halves }
+    }
+
+    /// How well the recording tells any number that hangs on the unknowns.
+    pub(crate) fn spread(&self) -> &Spread {
+        &self.spread
     }
 
     /// 95 % intervals of the parameters of these effects.

@@ -1,7 +1,8 @@
 //! Evidence with the noise model that whitens its residuals.
 
+use crate::equations::Column;
 use crate::evidence::{Evidence, Origin, Sample};
-use crate::normal::{Columns, Normal};
+use crate::normal::{Columns, Normal, Prior};
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Deref;
 use std::sync::Arc;
@@ -83,7 +84,7 @@ impl Weighted {
             Origin::Drive(noise) => {
                 let samples = evidence.samples();
                 let observed: Vec<_> = samples.iter().map(|sample| sample.motion).collect();
-                let twists = twists(samples, &observed);
+                let twists = twists(&evidence, &observed);
                 let lost = none_lost(samples);
                 Segments { noise: *noise, lost, twists }.whitening(samples)
             }
@@ -116,7 +117,7 @@ impl Weighted {
     /// The evidence in which errors of stamps displace poses along the motion that is predicted for
     /// each sample; a table stays as it is.
     pub fn moving_as(&self, prediction: &[Vector3<f64>]) -> Self {
-        self.with_segments(|segments| segments.twists = twists(self.samples(), prediction))
+        self.with_segments(|segments| segments.twists = twists(self, prediction))
     }
 
     /// The evidence with another noise and all segments, lost ones restored; a table stays as it
@@ -199,6 +200,14 @@ impl Weighted {
             value.component_mul_assign(&inverse);
         }
         column
+    }
+
+    /// The error that the yaw of all samples shares, whitened and scaled, with the prior of its
+    /// factor: the scale of the gyroscope that corrects it.
+    pub fn shared_error(&self) -> Option<(Column, Prior)> {
+        let known = self.serving_gyroscope()?.scale_deviation;
+        let turned = self.samples().iter().map(|sample| Vector3::new(0.0, 0.0, sample.motion[2]));
+        Some((self.white(turned.collect()), Prior::normal(0.0, known)))
     }
 
     /// A whitened and scaled column as it was before: the inverse of [`Weighted::white`].
@@ -294,12 +303,15 @@ fn none_lost(samples: &[Sample]) -> Arc<[bool]> {
     vec![false; samples.len()].into()
 }
 
-/// Twists about the poses of samples that move as predicted.
-fn twists(samples: &[Sample], prediction: &[Vector3<f64>]) -> Twists {
-    let within: Vec<Stretch> = (samples.iter().zip(prediction))
+/// Twists about the poses of samples that move as predicted. An error of a stamp does not turn a
+/// pose whose yaw is a gyroscope's.
+fn twists(evidence: &Evidence, prediction: &[Vector3<f64>]) -> Twists {
+    let turns = if evidence.serving_gyroscope().is_some() { 0.0 } else { 1.0 };
+    let within: Vec<Stretch> = (evidence.samples().iter().zip(prediction))
         .map(|(sample, motion)| {
             let Twist { v_x, v_y, w } =
                 Pose::new(motion[0], motion[1], motion[2]).log(sample.duration);
+            let w = turns * w;
             Stretch { twists: [[v_x, v_y, w]; 2], follows: sample.follows }
         })
         .collect();

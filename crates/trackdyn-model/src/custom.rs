@@ -42,7 +42,7 @@ pub use argument::{Argument, Kind};
 pub use batch::{Batch, Results};
 pub use declared::{Declared, DefinitionError};
 pub use failure::{Cause, Failure, guarded};
-pub use law::CustomLaw;
+pub use law::{CustomLaw, Outcome};
 
 use std::sync::{PoisonError, RwLock};
 

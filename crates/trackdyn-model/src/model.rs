@@ -251,6 +251,7 @@ impl Model {
         Bearing::of(&self.patches.left, &self.footprint, y)
     }
 
+    /// Change of the friction wrench of a side by all laws of the shear stress.
     fn shear_departure<S: Scalar>(
         &self,
         situation: &Situation<S>,
@@ -259,23 +260,35 @@ impl Model {
         pressure: &Pressure<S>,
     ) -> Wrench<S> {
         let mut custom = self.custom_factors(situation, side, pressed.clone(), pressure);
+        self.departure(situation, side, pressed, pressure, |site| {
+            let mut stress = ShearStress::base();
+            for effect in &self.shear_laws {
+                effect.shear(site, &mut stress);
+            }
+            if let Some(factors) = custom.next() {
+                stress.scale_each(factors);
+            }
+            stress
+        })
+    }
+
+    /// Change of the friction wrench of a side by a law of the shear stress.
+    #[inline]
+    fn departure<S: Scalar>(
+        &self,
+        situation: &Situation<S>,
+        side: Side,
+        pressed: impl Iterator<Item = Patch<S>>,
+        pressure: &Pressure<S>,
+        mut law: impl FnMut(&Site<S>) -> ShearStress<S>,
+    ) -> Wrench<S> {
         quadrature::departure_wrench(
             pressed,
             situation.ground.friction[side],
             pressure,
             &situation.motion.slip[side],
             self.resolution,
-            |patch, slip| {
-                let site = Site { situation, side, patch, pressure, slip };
-                let mut stress = ShearStress::base();
-                for effect in &self.shear_laws {
-                    effect.shear(&site, &mut stress);
-                }
-                if let Some(factors) = custom.next() {
-                    stress.scale_each(factors);
-                }
-                stress
-            },
+            |patch, slip| law(&Site { situation, side, patch, pressure, slip }),
         )
     }
 
@@ -291,17 +304,10 @@ impl Model {
             return Vec::new().into_iter();
         }
         let mut seen = Vec::new();
-        quadrature::departure_wrench(
-            pressed,
-            situation.ground.friction[side],
-            pressure,
-            &situation.motion.slip[side],
-            self.resolution,
-            |patch, slip| {
-                seen.push(seen_at(&Site { situation, side, patch, pressure, slip }));
-                ShearStress::base()
-            },
-        );
+        self.departure(situation, side, pressed, pressure, |site| {
+            seen.push(seen_at(site));
+            ShearStress::base()
+        });
         let mut product = vec![[S::from(1.0); 2]; seen.len()];
         for law in &self.custom_laws {
             for (product, factors) in product.iter_mut().zip(law.factors(&seen)) {

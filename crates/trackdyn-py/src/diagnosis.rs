@@ -30,6 +30,7 @@ pub struct Keywords {
     held_out: Option<String>,
     draws: usize,
     seed: u64,
+    gyroscope: bool,
     /// The text of a settings file, and the name that errors mention it by.
     settings: Option<(String, String)>,
     /// Ids of laws of a user that are candidates too.
@@ -53,6 +54,7 @@ impl Keywords {
         });
         Ok(DiagnoseSettings {
             held_out,
+            gyroscope: self.gyroscope,
             resampling: Resampling { draws: self.draws, seed: self.seed },
             method: method.transpose()?.unwrap_or_default(),
             laws: laws.map_err(raised)?,

@@ -8,10 +8,10 @@ use crate::{
     Vehicle, unobserved,
 };
 use std::path::Path;
-use trackdyn_diagnose::Resampling;
 use trackdyn_diagnose::compare::document::ComparisonFile;
 use trackdyn_diagnose::compare::{Comparison as Found, STAGES, Status, compare as compared};
 use trackdyn_diagnose::progress::Watch;
+use trackdyn_diagnose::{Evidence, Resampling};
 use trackdyn_model::EffectId;
 use trackdyn_report::{Compared, comparison_figures, comparison_html};
 
@@ -24,6 +24,8 @@ pub struct CompareSettings {
     /// Runs of the simulator, and of the robot, that nothing is fitted or chosen on: the result is
     /// judged on those of the robot.
     pub held_out: [HeldOut; 2],
+    /// Correct the yaw of the poses of each set by its gyroscope. Default: poses as they are.
+    pub gyroscope: bool,
     /// Draws and seed of the bootstrap behind the tests. Default: 2000 draws, seed 1.
     pub resampling: Resampling,
     /// All numbers that decide an answer: thresholds, priors, step sizes.
@@ -73,6 +75,7 @@ impl Prepared {
         let set = |recordings: &[Recording], held_out: &HeldOut| {
             let settings = DiagnoseSettings {
                 held_out: held_out.clone(),
+                gyroscope: settings.gyroscope,
                 resampling: settings.resampling,
                 method: settings.method.clone(),
                 laws: settings.laws.clone(),
@@ -82,6 +85,11 @@ impl Prepared {
         let [first, second] = &settings.held_out;
         let sets = [set(sim, first)?, set(real, second)?];
         Ok(Self { sets, vehicle: vehicle.clone(), resampling: settings.resampling })
+    }
+
+    /// What was seen of the simulator and of the robot.
+    pub fn evidence(&self) -> [&Evidence; 2] {
+        self.sets.each_ref().map(Set::evidence)
     }
 
     /// Compares, observed: a part is a stage of the method.

@@ -9,6 +9,7 @@ pub use claim::{Claim, Size};
 pub use held_out::{HeldOut, every_fourth};
 
 use crate::change::Folder;
+use crate::document::GyroscopeTable;
 use crate::law::guarded;
 use crate::recording::joined;
 use crate::viewer::{self, Layers};
@@ -36,6 +37,8 @@ const OF_DRIVES: [&str; 2] = ["time.png", "path.png"];
 pub struct DiagnoseSettings {
     /// Runs that nothing is fitted or chosen on: the result is judged on them.
     pub held_out: HeldOut,
+    /// Correct the yaw of the poses by the gyroscope of the recordings. Default: poses as they are.
+    pub gyroscope: bool,
     /// Draws and seed of the bootstrap behind the tests. Default: 2000 draws, seed 1.
     pub resampling: Resampling,
     /// All numbers that decide an answer: thresholds, priors, step sizes.
@@ -105,8 +108,12 @@ impl Prepared {
             (None, Some(_)) => {
                 let motion = recording.expect_positions()?;
                 let held_out = settings.held_out.of_motion(motion)?;
-                let evidence = Evidence::of_recording(motion, vehicle.gauge(), &settings.method)
-                    .map_err(named)?;
+                let taken = if settings.gyroscope {
+                    Evidence::by_gyroscope
+                } else {
+                    Evidence::of_recording
+                };
+                let evidence = taken(motion, vehicle.gauge(), &settings.method).map_err(named)?;
                 (evidence, held_out, Some(motion.run_list().to_string()))
             }
             (None, None) => return Err(Error::NoRecording),
@@ -152,18 +159,22 @@ impl Prepared {
         let progress = |at: trackdyn_diagnose::Progress| {
             observer(Progress { stage: at.stage.name(), done: at.done, total: at.total })
         };
-        let Self { evidence, vehicle, options, place, .. } = &self;
+        let Self { evidence, vehicle, options, .. } = &self;
         let found = guarded(|| {
-            trackdyn_diagnose::diagnose(evidence, vehicle.file(), options, &progress).map_err(
-                |cause| match cause {
-                    trackdyn_diagnose::Error::Cancelled => Error::Cancelled,
-                    cause => Error::Diagnose { recording: place.clone(), cause },
-                },
-            )
+            trackdyn_diagnose::diagnose(evidence, vehicle.file(), options, &progress)
+                .map_err(|cause| self.failed(cause))
         })?;
         let source = Some(self.source_of_correction());
         let corrected = VehicleFile { source, ..found.answer.corrected.clone() }.into();
         Ok(Diagnosis { found, corrected, of: self })
+    }
+
+    /// Why the recordings cannot be diagnosed.
+    fn failed(&self, cause: trackdyn_diagnose::Error) -> Error {
+        match cause {
+            trackdyn_diagnose::Error::Cancelled => Error::Cancelled,
+            cause => Error::Diagnose { recording: self.place.clone(), cause },
+        }
     }
 
     /// What a corrected vehicle was fitted to: all that is not held out.
@@ -239,7 +250,9 @@ impl Diagnosis {
     pub fn file(&self, provenance: &Provenance) -> DiagnosisFile {
         let seed = Some(self.of.options.resampling.seed);
         let source = Source { seed, ..self.of.source(provenance) };
-        DiagnosisFile::new(&self.found, &source)
+        let mut file = DiagnosisFile::new(&self.found, &source);
+        file.gyroscope = self.of.evidence.gyroscope().map(|found| GyroscopeTable::of(found).into());
+        file
     }
 
     /// The text of `vehicle.corrected.toml`: the corrected vehicle, and in its first line where it

@@ -121,3 +121,9 @@ impl GyroscopeTable {
         Self { gap_standard_error_without_it_m: deviation.map(Rounded), ..self }
     }
 }
+
+impl From<GyroscopeTable> for toml::Table {
+    fn from(table: GyroscopeTable) -> Self {
+        Self::try_from(table).expect("numbers and texts are TOML")
+    }
+}

@@ -23,7 +23,7 @@
 use crate::Error;
 use trackdyn_model::EffectId;
 pub use trackdyn_model::custom::{
-    Argument, Batch, Cause, CustomLaw, Declared, DefinitionError, Failure, Kind, Results,
+    Argument, Batch, Cause, CustomLaw, Declared, DefinitionError, Failure, Kind, Outcome, Results,
 };
 
 /// Registers a law for the rest of the process: its id can be used like one of the catalogue. A

@@ -3,24 +3,21 @@
 mod diagnosed;
 mod failing;
 
-use std::error::Error;
 use trackdyn::ActiveEffect;
 use trackdyn::crates::core::frames::paper_twist_from_ros;
 use trackdyn::crates::core::{PerSide, Plant, Pose, STANDARD_GRAVITY, Trajectory, Twist};
 use trackdyn::crates::model::contact::Resolution;
 use trackdyn::crates::model::effect::Role;
 use trackdyn::crates::model::{EffectId, Forces, Model, Stationary, Transient, VehicleFile};
-use trackdyn::law::{Argument, Batch, CustomLaw, Declared, Results, register};
+use trackdyn::law::{Argument, Batch, CustomLaw, Declared, Outcome, Results, register};
 use trackdyn::{Circumstance, Effects, Symmetry};
 
 /// Largest difference between a law and its copy: forces over the weight, speeds in m/s. What
 /// differences leave in a Jacobian does not move the root that is found by it.
 const MAX_DIFFERENCE: f64 = 1e-9;
 
-type Adds = Result<(), Box<dyn Error + Send + Sync>>;
-
 /// F = −k m ω × v, as the catalogue's `centripetal`.
-fn turning(at: &Batch, values: &[f64], adds: &mut Results) -> Adds {
+fn turning(at: &Batch, values: &[f64], adds: &mut Results) -> Outcome {
     let column = |argument| at.column(argument);
     for k in 0..at.len() {
         let load = column(Argument::LeftLoad)[k] + column(Argument::RightLoad)[k];
@@ -32,7 +29,7 @@ fn turning(at: &Batch, values: &[f64], adds: &mut Results) -> Adds {
 }
 
 /// R = −c N sign(V) on both sides of Auriga-alpha, as the catalogue's `motion-resistance`.
-fn rolling(at: &Batch, values: &[f64], adds: &mut Results) -> Adds {
+fn rolling(at: &Batch, values: &[f64], adds: &mut Results) -> Outcome {
     let vehicle = VehicleFile::auriga_alpha().vehicle;
     // from the centre of gravity to the middle of a track
     let [left, right] = [-0.5, 0.5].map(|side| side * vehicle.gauge - vehicle.cog[0]);
@@ -52,7 +49,7 @@ fn rolling(at: &Batch, values: &[f64], adds: &mut Results) -> Adds {
 }
 
 /// 1 + c |s|, as the catalogue's `viscous-friction`.
-fn viscous(at: &Batch, values: &[f64], adds: &mut Results) -> Adds {
+fn viscous(at: &Batch, values: &[f64], adds: &mut Results) -> Outcome {
     for place in [0, 1] {
         for (factor, slip) in adds.column(place).iter_mut().zip(at.column(Argument::SlipSpeed)) {
             *factor = 1.0 + values[0] * slip;

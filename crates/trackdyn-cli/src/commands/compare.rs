@@ -5,19 +5,17 @@ mod summary;
 use crate::changes::{say_removed, say_written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::{PartOptions, RecordingOptions, refuse_for_points};
+use crate::folder::prepare_folder;
+use crate::gyroscope::say_gyroscopes;
+use crate::options::{MethodOptions, PartOptions, RecordingOptions, held_out, refuse_for_points};
 use crate::progress::Progress;
 use crate::provenance::provenance;
 use crate::stdout::show;
 use clap::Args;
 use std::path::PathBuf;
 use trackdyn::compare::Prepared;
-use trackdyn::{
-    CompareSettings, Error, HeldOut, MethodSettings, Recording, Resampling, Vehicle, prepare_folder,
-};
-
-/// Heading of options in the help.
-const BOOTSTRAP: &str = "Bootstrap";
+use trackdyn::crates::diagnose::Evidence;
+use trackdyn::{CompareSettings, HeldOut, Vehicle};
 
 /// Options of `trackdyn compare`.
 #[derive(Args)]
@@ -33,17 +31,8 @@ pub struct Options {
     /// as 9-11, or `none` for both sets [default: every fourth run where there are eight or more]
     #[arg(long = "held-out-real", value_name = "RUNS|none")]
     held_out: Option<String>,
-    /// Draws of the bootstrap behind the tests
-    #[arg(long, help_heading = BOOTSTRAP, value_name = "N", default_value_t = 2000,
-          value_parser = clap::value_parser!(u32).range(1000..=100_000))]
-    draws: u32,
-    /// Seed of the bootstrap
-    #[arg(long, help_heading = BOOTSTRAP, value_name = "N", default_value_t = 1)]
-    seed: u64,
-    /// Numbers of the method that differ from their defaults: a table such as `[verdict]` with
-    /// max_p = 0.001
-    #[arg(long, value_name = "FILE")]
-    settings: Option<PathBuf>,
+    #[command(flatten)]
+    method: MethodOptions,
     /// Folder for compare.toml and compare.html
     #[arg(long, value_name = "DIR", default_value = "out/compare")]
     out: PathBuf,
@@ -59,22 +48,24 @@ pub struct Options {
 /// Compares, prints the answer in one screen and writes it.
 pub fn run(options: &Options) -> Outcome {
     let vehicle = Vehicle::choose(&options.vehicle)?;
-    let given: Vec<String> =
-        options.recording.given().into_iter().chain(options.part.given()).collect();
+    let given = options.recording.given().into_iter().chain(options.part.given());
+    let given: Vec<String> = given.chain(options.method.given()).collect();
     for first in [&options.recording.recording, &options.with[0]] {
         refuse_for_points(&given, first)?;
     }
     let sim = std::iter::once(&options.recording.recording).chain(&options.more);
-    let sim = recordings(options, sim)?;
-    let real = recordings(options, &options.with)?;
-    let method = options.settings.as_deref().map(MethodSettings::open).transpose()?;
+    let part = options.part.part();
+    let sim = options.recording.read_all(sim, &part)?;
+    let real = options.recording.read_all(&options.with, &part)?;
     let settings = CompareSettings {
-        held_out: held_out(options)?,
-        resampling: Resampling { draws: options.draws as usize, seed: options.seed },
-        method: method.unwrap_or_default(),
+        held_out: both_held_out(options)?,
+        gyroscope: options.method.gyroscope,
+        resampling: options.method.resampling(),
+        method: options.method.method()?,
         laws: Vec::new(),
     };
     let prepared = Prepared::new(&sim, &real, &vehicle, &settings)?;
+    say_gyroscopes(prepared.evidence().into_iter().filter_map(Evidence::gyroscope));
     prepare_folder(&options.out)?;
     let comparison = Progress::over(|observer| prepared.run(observer))?;
     let changes = comparison.write(&options.out, &provenance())?;
@@ -84,22 +75,12 @@ pub fn run(options: &Options) -> Outcome {
     Ok(Exit::Done)
 }
 
-/// Recordings, each read in one way, and of each the part that counts.
-fn recordings<'a>(
-    options: &Options,
-    paths: impl IntoIterator<Item = &'a PathBuf>,
-) -> Result<Vec<Recording>, Error> {
-    let part = options.part.part();
-    paths.into_iter().map(|path| options.recording.read_path(path)?.part(&part)).collect()
-}
-
-fn held_out(options: &Options) -> Result<[HeldOut; 2], String> {
-    match options.held_out.as_deref() {
-        None => Ok([HeldOut::EveryFourth, HeldOut::EveryFourth]),
-        Some("none") => Ok([HeldOut::None, HeldOut::None]),
-        Some(list) => {
-            let runs = list.parse().map_err(|error| format!("--held-out-real {list}: {error}"))?;
-            Ok([HeldOut::EveryFourth, HeldOut::Runs(runs)])
-        }
-    }
+/// `none` is for both sets, a list for the robot's.
+fn both_held_out(options: &Options) -> Result<[HeldOut; 2], String> {
+    let real = held_out("--held-out-real", options.held_out.as_deref())?;
+    let sim = match real {
+        HeldOut::None => HeldOut::None,
+        _ => HeldOut::EveryFourth,
+    };
+    Ok([sim, real])
 }

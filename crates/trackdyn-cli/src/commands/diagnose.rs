@@ -6,7 +6,8 @@ use crate::changes::{say_removed, say_written, written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::folder::prepare_folder;
-use crate::options::{PartOptions, RecordingOptions, refuse_for_points};
+use crate::gyroscope::say_gyroscopes;
+use crate::options::{MethodOptions, PartOptions, RecordingOptions, held_out, refuse_for_points};
 use crate::progress::Progress;
 use crate::provenance::provenance;
 use crate::stderr::say;
@@ -14,12 +15,7 @@ use crate::stdout::show;
 use clap::Args;
 use std::path::PathBuf;
 use trackdyn::diagnose::Prepared;
-use trackdyn::{
-    Change, DiagnoseSettings, Error, HeldOut, MethodSettings, Recording, Resampling, Vehicle,
-};
-
-/// Heading of options in the help.
-const BOOTSTRAP: &str = "Bootstrap";
+use trackdyn::{Change, DiagnoseSettings, Vehicle};
 
 /// Options of `trackdyn diagnose`.
 #[derive(Args)]
@@ -33,17 +29,8 @@ pub struct Options {
     /// table]
     #[arg(long, value_name = "RUNS|none")]
     held_out: Option<String>,
-    /// Draws of the bootstrap behind the tests
-    #[arg(long, help_heading = BOOTSTRAP, value_name = "N", default_value_t = 2000,
-          value_parser = clap::value_parser!(u32).range(1000..=100_000))]
-    draws: u32,
-    /// Seed of the bootstrap
-    #[arg(long, help_heading = BOOTSTRAP, value_name = "N", default_value_t = 1)]
-    seed: u64,
-    /// Numbers of the method that differ from their defaults: a table such as `[verdict]` with
-    /// max_p = 0.001
-    #[arg(long, value_name = "FILE")]
-    settings: Option<PathBuf>,
+    #[command(flatten)]
+    method: MethodOptions,
     /// Folder for diagnosis.toml, vehicle.corrected.toml, report.html and the figures
     #[arg(long, value_name = "DIR", default_value = "out/diagnosis")]
     out: PathBuf,
@@ -64,17 +51,20 @@ pub struct Options {
 pub fn run(options: &Options) -> Outcome {
     let vehicle = Vehicle::choose(&options.vehicle)?;
     let mcap = options.mcap.then(|| "--mcap".to_owned());
-    let given: Vec<String> =
-        options.recording.given().into_iter().chain(options.part.given()).chain(mcap).collect();
+    let given = options.recording.given().into_iter().chain(options.part.given());
+    let given: Vec<String> = given.chain(options.method.given()).chain(mcap).collect();
     refuse_for_points(&given, &options.recording.recording)?;
-    let recordings = recordings(options)?;
+    let paths = std::iter::once(&options.recording.recording).chain(&options.more);
+    let recordings = options.recording.read_all(paths, &options.part.part())?;
     let settings = DiagnoseSettings {
-        held_out: held_out(options)?,
-        resampling: Resampling { draws: options.draws as usize, seed: options.seed },
-        method: method(options)?,
+        held_out: held_out("--held-out", options.held_out.as_deref())?,
+        gyroscope: options.method.gyroscope,
+        resampling: options.method.resampling(),
+        method: options.method.method()?,
         laws: Vec::new(),
     };
     let prepared = Prepared::new(&recordings, &vehicle, &settings)?;
+    say_gyroscopes(prepared.evidence().gyroscope());
     prepare_folder(&options.out)?;
     let diagnosis = Progress::over(|observer| prepared.run(observer))?;
     let changes = diagnosis.write(&options.out, &provenance())?;
@@ -84,30 +74,6 @@ pub fn run(options: &Options) -> Outcome {
     }
     show(&summary::text(&diagnosis))?;
     Ok(Exit::Done)
-}
-
-/// All recordings, each read in one way, and of each the part that counts.
-fn recordings(options: &Options) -> Result<Vec<Recording>, Error> {
-    let more = options.more.iter().map(|path| options.recording.read_path(path));
-    let all = std::iter::once(options.recording.read()).chain(more);
-    let part = options.part.part();
-    all.map(|recording| recording?.part(&part)).collect()
-}
-
-fn method(options: &Options) -> Result<MethodSettings, Error> {
-    let method = options.settings.as_deref().map(MethodSettings::open).transpose()?;
-    Ok(method.unwrap_or_default())
-}
-
-fn held_out(options: &Options) -> Result<HeldOut, String> {
-    match options.held_out.as_deref() {
-        None => Ok(HeldOut::EveryFourth),
-        Some("none") => Ok(HeldOut::None),
-        Some(list) => {
-            let runs = list.parse().map_err(|error| format!("--held-out {list}: {error}"))?;
-            Ok(HeldOut::Runs(runs))
-        }
-    }
 }
 
 /// Names the files that were written; figures are counted.

@@ -1,7 +1,6 @@
 //! Numbers that both sets have, with an estimate in each.
 
 use super::choice::{Choice, sizes};
-use super::spread::Spread;
 use crate::base::spin_with;
 use crate::diagnosis::Examination;
 use crate::hypothesis::{Hypothesis, Unknown, neutral, typical_size};
@@ -9,7 +8,7 @@ use crate::mechanics::is_instrument;
 use crate::normal::Prior;
 use crate::prior::prior;
 use crate::search::Found;
-use crate::uncertainty::{Interval, Uncertainty};
+use crate::uncertainty::{Interval, Spread, Uncertainty};
 use trackdyn_model::effect::Parameter;
 use trackdyn_model::{ActiveEffect, EffectId, Effects};
 
@@ -164,34 +163,23 @@ pub(super) type Gradients = Vec<[f64; 3]>;
 pub(super) fn groups(
     sets: [&Examination; 2],
     choice: &Choice,
+    uncertainties: &[Uncertainty; 2],
 ) -> (Vec<Group>, Option<[Gradients; 2]>) {
     let fits = [&choice.fits[0], &choice.fits[1]];
-    let spreads = [0, 1].map(|k| Spread::of(&sets[k].search, fits[k]));
+    let spreads = uncertainties.each_ref().map(Uncertainty::spread);
     let shown = |effect: &&EffectId| fits.iter().all(|fit| fit.effects.contains(effect));
     let effects: Vec<EffectId> = choice.effects.iter().filter(shown).copied().collect();
-    let intervals = [0, 1].map(|k| Uncertainty::of(&sets[k].search, fits[k]).intervals(&effects));
+    let mut groups = of_effects(&effects, sets, choice, uncertainties);
     let evidence = &sets[0].search.evidence;
     let hypothesis = &sets[0].search.base.as_filed.hypothesis;
-    let mut groups = Vec::new();
-    for &effect in &effects {
-        let numbers = sizes(effect).filter_map(|unknown| {
-            let of = |k: usize| size(fits[k], unknown, &intervals[k], &spreads[k]);
-            let parameter = unknown.parameter()?;
-            let known = prior(hypothesis, unknown, evidence);
-            let known = Prior { mean: neutral(parameter), ..known };
-            let typical = typical_size(parameter);
-            Some(Quantity::new(Number::Unknown(unknown), [of(0)?, of(1)?], known, typical))
-        });
-        groups.push(Group { subject: Subject::Effect(effect), numbers: numbers.collect() });
-    }
-    let (constants, gradients) = constants(sets, choice, &spreads).unzip();
+    let (constants, gradients) = constants(sets, choice, spreads).unzip();
     groups.extend(constants);
     for (subject, unknowns) in [
         (Subject::FrictionLevel, &[Unknown::FrictionLevel][..]),
         (Subject::CentreOfGravity, &[Unknown::Cog(0), Unknown::Cog(1)]),
     ] {
         let numbers = unknowns.iter().filter_map(|&unknown| {
-            let of = |k: usize| known(fits[k], unknown, &spreads[k]);
+            let of = |k: usize| known(fits[k], unknown, spreads[k]);
             let prior = prior(hypothesis, unknown, evidence);
             let typical = prior.deviation;
             Some(Quantity::new(Number::Unknown(unknown), [of(0)?, of(1)?], prior, typical))
@@ -200,6 +188,31 @@ pub(super) fn groups(
     }
     groups.retain(|group| !group.numbers.is_empty());
     (groups, gradients)
+}
+
+/// The sizes of each of these effects, which both fits have.
+fn of_effects(
+    effects: &[EffectId],
+    sets: [&Examination; 2],
+    choice: &Choice,
+    uncertainties: &[Uncertainty; 2],
+) -> Vec<Group> {
+    let intervals = uncertainties.each_ref().map(|one| one.intervals(effects));
+    let evidence = &sets[0].search.evidence;
+    let hypothesis = &sets[0].search.base.as_filed.hypothesis;
+    let group = |&effect: &EffectId| {
+        let numbers = sizes(effect).filter_map(|unknown| {
+            let of =
+                |k: usize| size(&choice.fits[k], unknown, &intervals[k], uncertainties[k].spread());
+            let parameter = unknown.parameter()?;
+            let known = prior(hypothesis, unknown, evidence);
+            let known = Prior { mean: neutral(parameter), ..known };
+            let typical = typical_size(parameter);
+            Some(Quantity::new(Number::Unknown(unknown), [of(0)?, of(1)?], known, typical))
+        });
+        Group { subject: Subject::Effect(effect), numbers: numbers.collect() }
+    };
+    effects.iter().map(group).collect()
 }
 
 /// Estimate of a size: by its profile where it is free, by the normal equations where it is held at
@@ -222,9 +235,7 @@ fn size(
 /// Estimate of an unknown by the normal equations; none where the fit does not have it.
 fn known(found: &Found, unknown: Unknown, spread: &Spread) -> Option<Estimate> {
     let place = found.fit.unknowns.iter().position(|one| *one == unknown)?;
-    let mut gradient = vec![0.0; found.fit.unknowns.len()];
-    gradient[place] = 1.0;
-    Some(Estimate::around(found.fit.hypothesis.get(unknown), spread.half(&gradient)))
+    Some(Estimate::around(found.fit.hypothesis.get(unknown), spread.half_of(place)))
 }
 
 /// Middle, half distance and y of the constant ICRs.
@@ -246,7 +257,7 @@ fn icrs(hypothesis: &Hypothesis, beside: &[EffectId]) -> Option<[f64; 3]> {
 fn constants(
     sets: [&Examination; 2],
     choice: &Choice,
-    spreads: &[Spread; 2],
+    spreads: [&Spread; 2],
 ) -> Option<(Group, [Gradients; 2])> {
     let of = |k: usize| -> Option<([Estimate; 3], Gradients)> {
         let Found { fit, effects, .. } = &choice.fits[k];
@@ -302,7 +313,11 @@ fn step(hypothesis: &Hypothesis, unknown: Unknown, beside: &[EffectId]) -> Optio
 }
 
 /// Sizes of encoders and pose sensor that are free in both sets.
-pub(super) fn instruments(sets: [&Examination; 2], choice: &Choice) -> Vec<Group> {
+pub(super) fn instruments(
+    sets: [&Examination; 2],
+    choice: &Choice,
+    uncertainties: &[Uncertainty; 2],
+) -> Vec<Group> {
     let hypothesis = &sets[0].search.base.as_filed.hypothesis;
     let is_one = |effect: EffectId, k: usize| {
         let active: Option<&ActiveEffect> = choice.fits[k].fit.hypothesis.effect(effect);
@@ -311,18 +326,7 @@ pub(super) fn instruments(sets: [&Examination; 2], choice: &Choice) -> Vec<Group
     };
     let both: Vec<EffectId> =
         EffectId::all().filter(|&effect| is_one(effect, 0) && is_one(effect, 1)).collect();
-    let fits = [&choice.fits[0], &choice.fits[1]];
-    let spreads = [0, 1].map(|k| Spread::of(&sets[k].search, fits[k]));
-    let intervals = [0, 1].map(|k| Uncertainty::of(&sets[k].search, fits[k]).intervals(&both));
-    let evidence = &sets[0].search.evidence;
-    let group = |effect: EffectId| {
-        let numbers = sizes(effect).filter_map(|unknown| {
-            let of = |k: usize| size(fits[k], unknown, &intervals[k], &spreads[k]);
-            let known = prior(hypothesis, unknown, evidence);
-            let typical = typical_size(unknown.parameter()?);
-            Some(Quantity::new(Number::Unknown(unknown), [of(0)?, of(1)?], known, typical))
-        });
-        Group { subject: Subject::Effect(effect), numbers: numbers.collect() }
-    };
-    both.into_iter().map(group).filter(|group| !group.numbers.is_empty()).collect()
+    let mut groups = of_effects(&both, sets, choice, uncertainties);
+    groups.retain(|group| !group.numbers.is_empty());
+    groups
 }

@@ -12,10 +12,11 @@ use crate::diagnosis::Examination;
 use crate::evidence::Sample;
 use crate::fit::Fit;
 use crate::locate::cells::{Cell, cells_within, thirds};
-use crate::locate::{Contrasts, IcrColumns, Scales, SymmetryTest, contrasts_within, icr_columns};
+use crate::locate::{
+    Contrasts, IcrColumns, Scales, SymmetryTest, Tested, contrasts_within, icr_columns,
+};
 use crate::normal::Prior;
 use crate::resampling::Resampling;
-use crate::significance::{Group as Scores, test_family};
 use nalgebra::Vector3;
 use trackdyn_core::real;
 use trackdyn_model::effect::Symmetry;
@@ -101,32 +102,9 @@ pub(super) fn remainder(
     }
     let alike = (before - misfit(&joint)).max(0.0);
     let equations = joint.equations(groups);
-    let projected = equations.projected();
     let settings = sets[0].search.settings();
-    let scores: Vec<Scores> = kinds
-        .iter()
-        .zip(&equations.groups)
-        .map(|(kind, own)| {
-            let plain = kinds.iter().zip(&equations.groups).filter(|(other, _)| {
-                other.beside.is_empty() && kind.beside.contains(&other.symmetry)
-            });
-            let beside: Vec<usize> = plain.flat_map(|(_, columns)| columns.clone()).collect();
-            if beside.is_empty() {
-                Scores::new(&projected, own, &settings.location)
-            } else {
-                Scores::new(&projected.cleared(own, &beside), own, &settings.location)
-            }
-        })
-        .collect();
-    let mut tests: Vec<SymmetryTest> = Vec::new();
-    for (kind, test) in kinds.iter().zip(test_family(&scores, resampling)) {
-        match tests.iter_mut().find(|other| other.symmetry == kind.symmetry) {
-            Some(other) if test.is_stronger(&other.test) => other.test = test,
-            Some(_) => {}
-            None => tests.push(SymmetryTest { symmetry: kind.symmetry, test }),
-        }
-    }
     let location = &settings.location;
+    let Tested { tests, .. } = Tested::new(&equations, &kinds, resampling, location);
     let measured: usize = evidence.iter().map(|evidence| evidence.measured()).sum();
     let form = location.max_form_left.powi(2) * (departure + alike + explained);
     Remainder {

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use trackdyn_core::{PerSide, Pose};
 use trackdyn_estimate::blocks::Blocks;
 use trackdyn_estimate::frames::share_a_frame;
+use trackdyn_estimate::gyroscope::{Gyroscope, Unfit, with_gyroscope};
 use trackdyn_estimate::noise::{Noise, noise};
 use trackdyn_estimate::observations::{Observation, Observations, Piece};
 use trackdyn_estimate::regular::with_regular_poses;
@@ -37,6 +38,28 @@ impl Evidence {
         gauge: f64,
         settings: &Settings,
     ) -> Result<Self, Error> {
+        Self::of_drive(recording, gauge, settings, false)
+    }
+
+    /// The segments of a recording whose gyroscope corrects the yaw of its poses, where it has one
+    /// that serves ([`Evidence::gyroscope`]); the rest as [`Evidence::of_recording`].
+    ///
+    /// # Errors
+    /// Those of [`Evidence::of_recording`].
+    pub fn by_gyroscope(
+        recording: &Recording,
+        gauge: f64,
+        settings: &Settings,
+    ) -> Result<Self, Error> {
+        Self::of_drive(recording, gauge, settings, true)
+    }
+
+    fn of_drive(
+        recording: &Recording,
+        gauge: f64,
+        settings: &Settings,
+        by_gyroscope: bool,
+    ) -> Result<Self, Error> {
         settings.check()?;
         let by = &settings.evidence;
         check_places(recording, by.max_coordinate)?;
@@ -45,6 +68,12 @@ impl Evidence {
         let clock = Clock::of(&recording, None).map_err(Error::Clock)?;
         let tau = clock.tau();
         let (recording, measured) = with_quieter_poses(&recording, tau);
+        // Poses stand at their times now, so the gyroscope tells where they look.
+        let (recording, measured, gyroscope) = if by_gyroscope {
+            with_yaw_of_gyroscope(recording, measured, tau)
+        } else {
+            (recording, measured, None)
+        };
         let observations = segments(&recording, tau, by)?;
         let gap =
             spin_test(&observations, gauge).map_or(by.gap_without_spins * gauge, |spin| spin.gap);
@@ -62,6 +91,7 @@ impl Evidence {
             begin,
             has_world,
             origin: Origin::Drive(noise),
+            gyroscope,
             description: format!(
                 "{}; noise measured on what driving cannot explain{}",
                 blocks.description(),
@@ -176,5 +206,21 @@ fn with_quieter_poses(recording: &Recording, tau: f64) -> (Cow<'_, Recording>, N
     match (level(&as_stamped), level(&as_due)) {
         (Some(stamped), Some(level)) if level < stamped => (Cow::Owned(due), as_due),
         _ => (Cow::Borrowed(recording), as_stamped),
+    }
+}
+
+/// The recording and its noise, with the yaw of its poses corrected by its gyroscope, and what that
+/// tells; both as they are where it does not serve.
+fn with_yaw_of_gyroscope(
+    recording: Cow<'_, Recording>,
+    measured: Noise,
+    tau: f64,
+) -> (Cow<'_, Recording>, Noise, Option<Result<Gyroscope, Unfit>>) {
+    match with_gyroscope(&recording, tau) {
+        Ok((corrected, found)) => {
+            let measured = noise(&corrected, tau);
+            (Cow::Owned(corrected), measured, Some(Ok(found)))
+        }
+        Err(unfit) => (recording, measured, Some(Err(unfit))),
     }
 }

@@ -4,9 +4,11 @@ use super::{TASK, coarse, single};
 use crate::evidence::{Evidence, Origin, Sample};
 use crate::surface::Surface;
 use rayon::prelude::*;
-use trackdyn_core::{PerSide, Pose, Side, Twist, Wrench};
-use trackdyn_model::effect::Role;
-use trackdyn_model::{ActiveEffect, Circumstance, Drive, Effects, Model, Motion, Vehicle};
+use std::sync::Arc;
+use trackdyn_core::{PerSide, Pose, Side, Twist, Wrench, real};
+use trackdyn_model::effect::{Role, Stage};
+use trackdyn_model::stationary::Near;
+use trackdyn_model::{ActiveEffect, Circumstance, Drive, Effects, Ground, Model, Motion, Vehicle};
 use trackdyn_model::{Stationary, Status};
 
 /// Place, heading and time of the robot at the middle of a sample.
@@ -38,7 +40,6 @@ pub fn acts(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> Ac
     if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
         return Acts::Alike;
     }
-    let forces = |model: &Model, at: &Circumstance| probed(model, at, PerSide::new(-0.2, 0.5));
     let level = Circumstance::default();
     let model = single(vehicle, effect);
     let samples = evidence.samples();
@@ -46,53 +47,143 @@ pub fn acts(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> Ac
     let is_somewhere = |role: Role| matches!(role, Role::Place { .. } | Role::Time);
     let is_local = effect.card().parameters.iter().any(|one| is_somewhere(one.role));
     let step = if is_local { 1 } else { (samples.len() / probes).max(1) };
-    let there = forces(&model, &level);
-    if samples.iter().step_by(step).any(|sample| forces(&model, &circumstance(sample)) != there) {
+    let there = Acting::of(&model, &level, is_of_ground(effect), PROBED);
+    let differs = |sample: &Sample| !there.is_alike(&model, &circumstance(sample), PROBED);
+    if samples.iter().step_by(step).any(differs) {
         return Acts::Varying;
     }
-    let is_absent = || there == forces(&coarse(vehicle, Effects::none()), &level);
+    let is_absent = || there.is_alike(&coarse(vehicle, Effects::none()), &level, PROBED);
     if is_local && is_absent() { Acts::Nowhere } else { Acts::Alike }
 }
 
+/// Belt speeds of the turn in which forces are probed, m/s.
+const PROBED: PerSide<f64> = PerSide::new(-0.2, 0.5);
+
+/// Whether an effect acts by the ground alone: where that is alike, so are all forces.
+fn is_of_ground(effect: &ActiveEffect) -> bool {
+    effect.card().stages.iter().all(|stage| *stage == Stage::Ground)
+}
+
+/// How a model acts on the robot at one place, heading and time.
+enum Acting {
+    /// By this ground.
+    Ground(Ground),
+    /// By these forces in a turn: friction of each side, and all others.
+    Forces([Wrench; 3]),
+}
+
+impl Acting {
+    fn of(model: &Model, at: &Circumstance, by_ground: bool, speeds: PerSide<f64>) -> Self {
+        let ground = model.ground(at);
+        if by_ground { Self::Ground(ground) } else { Self::Forces(probed(model, &ground, speeds)) }
+    }
+
+    /// Whether a model acts alike at another place, heading and time.
+    fn is_alike(&self, model: &Model, at: &Circumstance, speeds: PerSide<f64>) -> bool {
+        let ground = model.ground(at);
+        match self {
+            Self::Ground(here) => Ground { circumstance: here.circumstance, ..ground } == *here,
+            Self::Forces(here) => probed(model, &ground, speeds) == *here,
+        }
+    }
+}
+
 /// Forces in a turn at these belt speeds: friction of each side, and all others.
-fn probed(model: &Model, at: &Circumstance, speeds: PerSide<f64>) -> [Wrench; 3] {
+fn probed(model: &Model, ground: &Ground, speeds: PerSide<f64>) -> [Wrench; 3] {
     let gauge = model.vehicle().gauge;
     let motion = Motion::anchored(speeds, Side::Left, [-gauge, 0.1 * gauge], 0.5 / gauge);
-    let balance = model.balance(&model.ground(at), &motion);
+    let balance = model.balance(ground, &motion);
     [balance.friction.left, balance.friction.right, balance.load]
 }
 
-/// Stationary motion at the place of each sample, minus that without the effects of place, heading
-/// or time. `table` approximates the latter and starts the solves.
-pub fn by_ground(
-    with: &Model,
-    without: &Model,
-    table: &Surface,
-    drive: &Drive,
-    evidence: &Evidence,
-) -> Vec<Twist> {
-    let level = Stationary::new(without, &Circumstance::default());
-    let samples = evidence.samples().par_iter().with_min_len(TASK);
-    samples
-        .map(|sample| {
+/// Departure by ground that changes, and the motions from which those of similar models start.
+pub struct ByGround {
+    /// Stationary motion at the place of each sample, minus that without the effects of place,
+    /// heading or time.
+    pub departures: Vec<Twist>,
+    starts: Arc<Vec<Starts>>,
+}
+
+/// Known motions of a sample: at its place, and without what changes with the place.
+type Starts = [Option<Near>; 2];
+
+/// Share of the samples with a departure whose solves had far to go from which all motions are
+/// kept anew.
+const MAX_FAR: f64 = 0.1;
+
+/// Steps of a solve that had far to go.
+const FAR: usize = 3;
+
+/// A sample at which the ground changes the motion.
+struct Changed {
+    departure: Twist,
+    starts: Starts,
+    was_far: bool,
+}
+
+impl ByGround {
+    /// The departure of a model `with` effects that vary by place, heading or time from that
+    /// `without`. `table` approximates the latter. Solves start from the motions of `before`, the
+    /// departure of a similar model, or from the table.
+    pub fn new(
+        [with, without]: [&Model; 2],
+        table: &Surface,
+        drive: &Drive,
+        evidence: &Evidence,
+        before: Option<&Self>,
+    ) -> Self {
+        let level = Circumstance::default();
+        let by_ground = with.effects().iter().all(|effect| {
+            is_of_ground(effect) || without.effects().iter().any(|constant| constant == effect)
+        });
+        let on_level = Stationary::new(without, &level);
+        let alike = by_ground.then(|| Acting::of(without, &level, true, PROBED));
+        let samples = evidence.samples();
+        let before = before.map(|before| &before.starts).filter(|of| of.len() == samples.len());
+        let changed = |(index, sample): (usize, &Sample)| -> Option<Changed> {
             let (speeds, at) = (drive.driven(sample.speeds, sample.start), circumstance(sample));
-            let nothing = Twist::zero();
-            // outside a patch forces equal those of level ground
-            if probed(with, &at, speeds) == probed(without, &Circumstance::default(), speeds) {
-                return nothing;
+            let is_alike = match &alike {
+                Some(alike) => alike.is_alike(with, &at, speeds),
+                None => Acting::of(without, &level, false, speeds).is_alike(with, &at, speeds),
+            };
+            // outside a patch
+            if is_alike {
+                return None;
             }
-            let near = table.motion(speeds).near();
-            let there = level.starting_at(near).solve(speeds);
-            let near = there.near().or(near);
+            let known = before.map_or([None; 2], |before| before[index]);
+            let there = on_level.starting_at(known[1].or_else(|| table.motion(speeds).near()));
+            let there = there.solve(speeds);
+            let near = known[0].or_else(|| there.near());
+            let near = near.or_else(|| table.motion(speeds).near());
             let here = Stationary::from_start(with, &at, near).solve(speeds);
-            let usable = |status: Status| status != Status::NotConverged;
-            if usable(here.status) && usable(there.status) {
-                here.twist - there.twist
-            } else {
-                nothing
+            let solved = [here, there];
+            let usable = solved.iter().all(|one| one.status != Status::NotConverged);
+            Some(Changed {
+                departure: if usable { here.twist - there.twist } else { Twist::zero() },
+                starts: solved.map(|one| one.linearised.map(Near::Linearised)),
+                was_far: known == [None; 2] || solved.iter().any(|one| one.iterations > FAR),
+            })
+        };
+        let changes: Vec<Option<Changed>> =
+            samples.par_iter().enumerate().with_min_len(TASK).map(changed).collect();
+        let departure = |change: &Option<Changed>| {
+            change.as_ref().map_or(Twist::zero(), |change| change.departure)
+        };
+        let departures = changes.iter().map(departure).collect();
+        let far = changes.iter().flatten().filter(|change| change.was_far).count();
+        let all = changes.iter().flatten().count();
+        let starts = match before {
+            Some(before) if real(far) <= MAX_FAR * real(all) => Arc::clone(before),
+            _ => {
+                let known = |index: usize| before.map_or([None; 2], |before| before[index]);
+                let starts = changes.iter().enumerate().map(|(index, change)| {
+                    change.as_ref().map_or_else(|| known(index), |change| change.starts)
+                });
+                Arc::new(starts.collect())
             }
-        })
-        .collect()
+        };
+        Self { departures, starts }
+    }
 }
 
 #[cfg(test)]

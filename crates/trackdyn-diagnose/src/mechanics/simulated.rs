@@ -42,11 +42,11 @@ impl Steps {
         }
     }
 
-    /// Steps for shear-stress laws. With the defaults they err by nine of these standard
-    /// deviations, but alike with and without a law, so that the errors cancel.
+    /// Steps for shear-stress laws. With the defaults they err more, but alike with and without a
+    /// law, so that the errors cancel.
     fn coarse(settings: &settings::Mechanics) -> Self {
         Self {
-            longest: settings.max_step,
+            longest: settings.max_sheared_step,
             shortest: settings.min_sheared_step,
             tolerance: settings.sheared_step_tolerance,
         }
@@ -113,7 +113,7 @@ pub struct Inertia {
     steady: Vec<Vec<Twist>>,
     /// Sums of forces in these, nonzero by the error of the table, computed on demand.
     left: OnceLock<Vec<Vec<Vector3<f64>>>>,
-    /// Departures that were asked for last.
+    /// Departures that were found last.
     departures: Mutex<VecDeque<Departures>>,
     settings: settings::Mechanics,
 }

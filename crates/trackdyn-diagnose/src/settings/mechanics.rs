@@ -33,6 +33,9 @@ group! {
         /// Twist error from which a step is shortened.
         step_tolerance: f64 = 1e-3, "m/s", [1e-9, 1.0],
             "As good as steps of 2 ms.";
+        /// Longest step beside shear laws.
+        max_sheared_step: f64 = 0.05, "s", [1e-4, 1.0],
+            "Readings rarely come later.";
         /// Shortest step beside shear laws.
         min_sheared_step: f64 = 0.0125, "s", [1e-6, 1.0],
             "Errors with and without a law cancel.";

@@ -56,12 +56,13 @@ pub enum Argument {
 }
 
 /// Number of arguments of a force.
-pub const OF_FORCE: usize = 11;
+pub const OF_FORCE: usize = MOTION.len() + 2;
 
 /// Number of arguments of friction.
-pub const OF_FRICTION: usize = 18;
+pub const OF_FRICTION: usize = MOTION.len() + 9;
 
-const FORCE: [Argument; OF_FORCE] = [
+/// What all laws see.
+const MOTION: [Argument; 9] = [
     Argument::ForwardSpeed,
     Argument::LateralSpeed,
     Argument::YawRate,
@@ -71,20 +72,11 @@ const FORCE: [Argument; OF_FORCE] = [
     Argument::Y,
     Argument::Heading,
     Argument::Time,
-    Argument::LeftLoad,
-    Argument::RightLoad,
 ];
 
-const FRICTION: [Argument; OF_FRICTION] = [
-    Argument::ForwardSpeed,
-    Argument::LateralSpeed,
-    Argument::YawRate,
-    Argument::LeftBelt,
-    Argument::RightBelt,
-    Argument::X,
-    Argument::Y,
-    Argument::Heading,
-    Argument::Time,
+const FORCE: [Argument; OF_FORCE] = beside_motion([Argument::LeftLoad, Argument::RightLoad]);
+
+const FRICTION: [Argument; OF_FRICTION] = beside_motion([
     Argument::SlipForward,
     Argument::SlipLateral,
     Argument::SlipSpeed,
@@ -94,7 +86,21 @@ const FRICTION: [Argument; OF_FRICTION] = [
     Argument::PointLateral,
     Argument::PointX,
     Argument::PointY,
-];
+]);
+
+/// What all laws see, then what one kind sees beside it.
+const fn beside_motion<const K: usize, const N: usize>(own: [Argument; K]) -> [Argument; N] {
+    let mut all = [Argument::Time; N];
+    let mut place = 0;
+    while place < N {
+        all[place] = match place.checked_sub(MOTION.len()) {
+            Some(of_own) => own[of_own],
+            None => MOTION[place],
+        };
+        place += 1;
+    }
+    all
+}
 
 impl Kind {
     /// What a law of this kind sees, in the order of its columns.

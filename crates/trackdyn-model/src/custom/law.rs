@@ -8,9 +8,11 @@ use std::error::Error;
 use std::fmt;
 use std::sync::Arc;
 
+/// What a function of a user returns: nothing, or why it cannot be evaluated.
+pub type Outcome = Result<(), Box<dyn Error + Send + Sync>>;
+
 /// What a law adds at states with these values of its parameters.
-type Function =
-    dyn Fn(&Batch, &[f64], &mut Results) -> Result<(), Box<dyn Error + Send + Sync>> + Send + Sync;
+type Function = dyn Fn(&Batch, &[f64], &mut Results) -> Outcome + Send + Sync;
 
 /// A law of a user.
 pub struct CustomLaw {
@@ -36,10 +38,7 @@ impl CustomLaw {
         id: &str,
         title: &str,
         parameters: &[Declared],
-        function: impl Fn(&Batch, &[f64], &mut Results) -> Result<(), Box<dyn Error + Send + Sync>>
-        + Send
-        + Sync
-        + 'static,
+        function: impl Fn(&Batch, &[f64], &mut Results) -> Outcome + Send + Sync + 'static,
     ) -> Result<Self, DefinitionError> {
         Self::new(Kind::Force, id, title, parameters, function)
     }
@@ -52,10 +51,7 @@ impl CustomLaw {
         id: &str,
         title: &str,
         parameters: &[Declared],
-        function: impl Fn(&Batch, &[f64], &mut Results) -> Result<(), Box<dyn Error + Send + Sync>>
-        + Send
-        + Sync
-        + 'static,
+        function: impl Fn(&Batch, &[f64], &mut Results) -> Outcome + Send + Sync + 'static,
     ) -> Result<Self, DefinitionError> {
         Self::new(Kind::Friction, id, title, parameters, function)
     }
@@ -70,10 +66,7 @@ impl CustomLaw {
         id: &str,
         title: &str,
         parameters: &[Declared],
-        function: impl Fn(&Batch, &[f64], &mut Results) -> Result<(), Box<dyn Error + Send + Sync>>
-        + Send
-        + Sync
-        + 'static,
+        function: impl Fn(&Batch, &[f64], &mut Results) -> Outcome + Send + Sync + 'static,
     ) -> Result<Self, DefinitionError> {
         check(id, parameters)?;
         let law = match kind {

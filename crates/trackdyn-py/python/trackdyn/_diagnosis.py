@@ -232,6 +232,7 @@ def diagnose(
     held_out: RunsLike = None,
     draws: int = 2000,
     seed: int = 1,
+    gyroscope: bool = False,
     laws: LawLike | Iterable[LawLike] | None = None,
     progress: bool | Progress | None = None,
 ) -> Diagnosis:
@@ -252,6 +253,8 @@ def diagnose(
         where there are eight or more.
     draws, seed : int
         Draws of the bootstrap behind the tests, 1000 to 100000, and their seed.
+    gyroscope : bool
+        Correct the yaw of the poses by the recordings' gyroscope.
     laws : Law or several, optional
         Suspects beside the catalogue, as :func:`law` makes them. Those that the vehicle has are
         suspects anyway.
@@ -265,17 +268,33 @@ def diagnose(
     """
     single = isinstance(recordings, Recording) or _values.is_single(recordings)
     several: Any = [recordings] if single else recordings
-    keywords = {
-        "held_out": runs_of(held_out, "held_out"),
-        "draws": _values.count("draws", draws),
-        "seed": seed_of(seed),
-        "settings": _settings(settings),
-        "laws": ids_of(laws),
-    }
+    keywords = keywords_of(
+        settings=settings, held_out=held_out, draws=draws, seed=seed, gyroscope=gyroscope, laws=laws
+    )
     with told(progress, "diagnose") as tell:
         recorded = [recording_of(one) for one in several]
         inner = _trackdyn.diagnose(recorded, vehicle_of(vehicle)._inner, keywords, tell)
     return Diagnosis(inner)
+
+
+def keywords_of(
+    *,
+    settings: Any = None,
+    held_out: RunsLike = None,
+    draws: int = 2000,
+    seed: int = 1,
+    gyroscope: bool = False,
+    laws: LawLike | Iterable[LawLike] | None = None,
+) -> dict[str, Any]:
+    """The keywords of :func:`diagnose`, checked, as the library takes them."""
+    return {
+        "held_out": runs_of(held_out, "held_out"),
+        "draws": _values.count("draws", draws),
+        "seed": seed_of(seed),
+        "gyroscope": _values.flag("gyroscope", gyroscope),
+        "settings": _settings(settings),
+        "laws": ids_of(laws),
+    }
 
 
 def _settings(settings: Mapping[str, Any] | str | os.PathLike[str] | None) -> Any:

@@ -70,10 +70,14 @@ pub(crate) fn drawn([before, after]: &[Vec<Cell>; 2], words: &Words) -> Figure {
     let limit = limit(&[before, after]);
     let panels = (0..3).map(|k| panel(&[before, after], k, limit, words.names));
     figure.panels.extend(panels);
-    for (row, cell) in before.iter().enumerate() {
+    for (row, (cell, other)) in before.iter().zip(after).enumerate() {
         let at = [-limit, real(row) + 0.5];
-        let count = format!("n = {}", cell.samples);
-        figure.panels[0].name(&name(cell), at, 104);
+        // Two sets of recordings have samples of their own.
+        let (count, width) = match (cell.samples, other.samples) {
+            (one, two) if one == two => (format!("n = {one}"), 104),
+            (one, two) => (format!("n = {one}/{two}"), 150),
+        };
+        figure.panels[0].name(&name(cell), at, width);
         figure.panels[0].labels.push(Label::left_of(&count, at, 14, (18.0, GREY)));
     }
     figure

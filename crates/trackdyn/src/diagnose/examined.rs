@@ -17,10 +17,7 @@ impl Prepared {
             observer(Progress { stage: at.stage.name(), done: done + at.done, total })
         };
         let examined = examine(&self.evidence, self.vehicle.file(), &self.options, &progress);
-        examined.map_err(|cause| match cause {
-            trackdyn_diagnose::Error::Cancelled => Error::Cancelled,
-            cause => Error::Diagnose { recording: self.place.clone(), cause },
-        })
+        examined.map_err(|cause| self.failed(cause))
     }
 
     /// Parts of an examination.

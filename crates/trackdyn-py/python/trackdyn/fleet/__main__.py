@@ -106,9 +106,14 @@ def _parser() -> argparse.ArgumentParser:
 def _diagnose(given: argparse.Namespace) -> Any:
     if given.no_diagnose and given.settings is not None:
         raise SettingError("settings: expected without --no-diagnose", "settings")
-    if given.settings is None:
-        return not given.no_diagnose
-    return {"settings": given.settings}
+    if given.no_diagnose:
+        return False
+    keywords: dict[str, Any] = {}
+    if given.settings is not None:
+        keywords["settings"] = given.settings
+    if given.gyroscope:
+        keywords["gyroscope"] = True
+    return keywords or True
 
 
 def _executor(given: argparse.Namespace) -> Any:

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from typing import Any, Union
 
 from .. import _trackdyn, _values
-from .._arguments import plain, runs_of, seed_of, vehicle_of
-from .._diagnosis import _settings
+from .._arguments import plain, vehicle_of
+from .._diagnosis import keywords_of
 from .._errors import DocumentError, RecordingError, SettingError
 from .._kinematics import IcrKinematics
 from .._reading import reading as reading_of
@@ -27,7 +27,7 @@ DiagnoseLike = Union[bool, Mapping[str, Any]]
 #: Options of reading that are paths: workers may run elsewhere.
 _PATHS = ("tracks", "msg_dir")
 
-_DIAGNOSE = ("settings", "held_out", "draws", "seed")
+_DIAGNOSE = ("settings", "held_out", "draws", "seed", "gyroscope")
 _NOT_IDENTIFY = ("vehicle", "alphas", "progress")
 
 
@@ -109,30 +109,18 @@ def _diagnose(diagnose: DiagnoseLike) -> dict[str, Any] | None:
         if name not in _DIAGNOSE:
             expected = f"expected one of {', '.join(_DIAGNOSE)}"
             raise SettingError(f"diagnose {name}: {expected}", "diagnose")
-    settings = _read(keywords.get("settings"))
-    full = {
-        "held_out": runs_of(keywords.get("held_out"), "held_out"),
-        "draws": _values.count("draws", keywords.get("draws", 2000)),
-        "seed": seed_of(keywords.get("seed", 1)),
-        "settings": settings,
-        "laws": [],
-    }
+    try:
+        full = keywords_of(**keywords)
+    except DocumentError as error:
+        raise SettingError(f"settings {error}", "settings") from None
     try:
         _trackdyn.diagnose([], Vehicle(Vehicle.names()[0])._inner, full, None)
     # all but the recordings is well
     except RecordingError:
         pass
-    if settings is not None:
-        keywords["settings"] = _trackdyn.from_toml(settings[1])
+    if full["settings"] is not None:
+        keywords["settings"] = _trackdyn.from_toml(full["settings"][1])
     return {name: plain(value) for name, value in sorted(keywords.items())}
-
-
-def _read(settings: Any) -> Any:
-    """The name and the text of settings."""
-    try:
-        return _settings(settings)
-    except DocumentError as error:
-        raise SettingError(f"settings {error}", "settings") from None
 
 
 def vehicles_of(vehicle: FleetVehicle, robots: Iterable[str]) -> dict[str, Vehicle]:

@@ -1,18 +1,18 @@
-//! How well a set knows a number that hangs on several unknowns.
+//! How well a recording tells a number that hangs on several unknowns.
 
+use super::{groupings, shown_by};
 use crate::equations::Equations;
 use crate::normal::{Normal, Prior, Solution};
 use crate::search::{Found, Search};
-use crate::uncertainty::{groupings, shown_by};
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 use trackdyn_core::real;
 use trackdyn_estimate::Interval as Student;
 
-/// Covariances of the unknowns of a fit: by the noise with other forms of the laws, and by two
-/// jackknives, over blocks and over runs. The largest variance counts, as in
-/// [`Uncertainty`](crate::uncertainty::Uncertainty).
-pub(super) struct Spread {
+/// Covariances of the unknowns of a fit: by the noise, beside which other forms of the laws are as
+/// free as the unknowns, and by two jackknives of the laws as they stand, over blocks and over
+/// runs. The largest variance counts.
+pub(crate) struct Spread {
     /// Normal equations of the unknowns, then of the forms of their laws.
     normal: Normal,
     priors: Vec<Prior>,
@@ -70,6 +70,19 @@ impl Spread {
         }
     }
 
+    /// Half width of the 95 % interval of an unknown.
+    pub fn half_of(&self, place: usize) -> f64 {
+        let mut gradient = vec![0.0; self.count];
+        gradient[place] = 1.0;
+        self.half(&gradient)
+    }
+
+    /// Half width of the 95 % interval of a number that the recording does not tell, of this
+    /// variance.
+    pub fn half_unseen(&self, variance: f64) -> f64 {
+        half(variance, self.blocks)
+    }
+
     /// Half width of the 95 % interval of a number with this gradient by the unknowns.
     ///
     /// An unknown at a bound on which the number hangs is free here: the bound cuts off what lies
@@ -93,9 +106,6 @@ impl Spread {
             of.unknowns.len(),
             of.unknowns.iter().map(|&unknown| gradient[unknown]),
         );
-        let half = |variance: f64, groups: usize| {
-            Student::new(0.0, variance.max(0.0).sqrt(), groups, 1).high
-        };
         let mut most = half(by.dot(&(&of.in_forms * &by)), self.blocks);
         // w = Σ g: its covariance with all
         let with_all = &of.own * &by;
@@ -110,6 +120,11 @@ impl Spread {
         }
         most
     }
+}
+
+/// Half width of a 95 % interval by Student's quantile.
+fn half(variance: f64, groups: usize) -> f64 {
+    Student::new(0.0, variance.max(0.0).sqrt(), groups, 1).high
 }
 
 impl Covariances {
@@ -134,7 +149,7 @@ impl Covariances {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compare::bayes::Alternatives;
+    use crate::compare::Alternatives;
     use crate::normal::Columns;
     use nalgebra::Vector3;
 

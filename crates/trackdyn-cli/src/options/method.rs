@@ -1,0 +1,63 @@
+//! Options of a diagnosis that a comparison has, too.
+
+use clap::Args;
+use std::path::PathBuf;
+use trackdyn::{Error, HeldOut, MethodSettings, Resampling};
+
+/// Heading of options in the help.
+const BOOTSTRAP: &str = "Bootstrap";
+
+/// How evidence is judged.
+#[derive(Args)]
+pub struct MethodOptions {
+    /// Correct the yaw of the poses by the recording's gyroscope
+    #[arg(long, help_heading = None::<&str>)]
+    pub gyroscope: bool,
+    /// Draws of the bootstrap behind the tests
+    #[arg(long, help_heading = BOOTSTRAP, value_name = "N", default_value_t = 2000,
+          value_parser = clap::value_parser!(u32).range(1000..=100_000))]
+    draws: u32,
+    /// Seed of the bootstrap
+    #[arg(long, help_heading = BOOTSTRAP, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Numbers of the method that differ from their defaults: a table such as `[verdict]` with
+    /// max_p = 0.001
+    #[arg(long, value_name = "FILE")]
+    settings: Option<PathBuf>,
+}
+
+impl MethodOptions {
+    /// Options among these that only a recording of motion has, as they were given.
+    pub fn given(&self) -> Option<String> {
+        self.gyroscope.then(|| "--gyroscope".to_owned())
+    }
+
+    /// Draws and seed of the bootstrap.
+    pub fn resampling(&self) -> Resampling {
+        Resampling { draws: self.draws as usize, seed: self.seed }
+    }
+
+    /// The numbers of the method.
+    ///
+    /// # Errors
+    /// Those of [`MethodSettings::open`].
+    pub fn method(&self) -> Result<MethodSettings, Error> {
+        let method = self.settings.as_deref().map(MethodSettings::open).transpose()?;
+        Ok(method.unwrap_or_default())
+    }
+}
+
+/// The runs to judge a result on, as an option of this name says.
+///
+/// # Errors
+/// A message that names the option and its value.
+pub fn held_out(option: &str, given: Option<&str>) -> Result<HeldOut, String> {
+    match given {
+        None => Ok(HeldOut::EveryFourth),
+        Some("none") => Ok(HeldOut::None),
+        Some(list) => {
+            let runs = list.parse().map_err(|error| format!("{option} {list}: {error}"))?;
+            Ok(HeldOut::Runs(runs))
+        }
+    }
+}

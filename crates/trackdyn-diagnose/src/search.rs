@@ -393,6 +393,32 @@ impl Search {
         })
     }
 
+    /// Refits of the screened candidates, best first, as long as one promises about as much as the
+    /// best refit kept: where laws are not linear, a refit keeps less than its screen promised, and
+    /// others may keep more.
+    fn singles(
+        &self,
+        beside: &Found,
+        screened: &[Screened],
+        watch: &Watch,
+    ) -> Result<Vec<Found>, Cancelled> {
+        let settings = &self.settings().search;
+        let worth = settings.min_ln_evidence;
+        let mut refitted: Vec<Found> = Vec::new();
+        let mut kept: f64 = 0.0;
+        for one in screened.iter().take(settings.max_refitted_singles) {
+            let least = settings.min_relative_gain * kept - worth;
+            if one.gain <= least.max(settings.min_promised_share * worth) {
+                break;
+            }
+            watch.go_on()?;
+            let found = self.refit(beside, std::slice::from_ref(one));
+            kept = kept.max(found.ln_evidence - beside.ln_evidence);
+            refitted.push(found);
+        }
+        Ok(refitted)
+    }
+
     /// The best hypothesis.
     ///
     /// # Errors
@@ -404,17 +430,11 @@ impl Search {
         let mut whole = self.newton(&best, watch)?;
         for _ in 0..settings.max_rounds {
             let mut proposals: Vec<(Found, Vec<Screened>)> = Vec::new();
+            let mut singles: Vec<Found> = Vec::new();
             if best.effects.len() < settings.max_effects {
                 let mut screened = self.screen(&best);
                 screened.retain(|one| !self.is_as_filed(one));
-                let most = screened.first().map_or(0.0, |one| one.gain);
-                let least = settings.min_relative_gain * most - worth;
-                let promised = settings.min_promised_share * worth;
-                let promising =
-                    screened.iter().filter(|one| one.gain > least && one.gain > promised);
-                for one in promising.take(settings.max_refitted_singles) {
-                    proposals.push((best.clone(), vec![one.clone()]));
-                }
+                singles = self.singles(&best, &screened, watch)?;
                 if best.effects.len() + 2 <= settings.max_effects {
                     let single = screened.first().map_or(0.0, |one| one.gain);
                     let pairs = self.pairs(&best, &screened);
@@ -458,6 +478,7 @@ impl Search {
             };
             let next = reduced
                 .into_iter()
+                .chain(singles)
                 .chain(refitted)
                 .chain(whole.take())
                 .max_by(|a, b| value(a).total_cmp(&value(b)).then(b.effects.cmp(&a.effects)));

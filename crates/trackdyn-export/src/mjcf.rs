@@ -55,6 +55,11 @@ const SHARE_OF_LIFTING: f64 = 1.0 / 16.0;
 /// Speed that an actuator loses where a track has full traction, m/s.
 const DROOP: f64 = 1e-4;
 
+/// Steps in which a roller follows its actuator. Contacts are solved for rollers without actuators:
+/// a light roller would seem to run away from the force that only just accelerates it, and would
+/// drag the hull along at full friction. A rotor (armature) makes it as slow as its actuator.
+const FOLLOWING: f64 = 5.0;
+
 /// The numbers of a roller and its contact.
 struct Suspension {
     mass: f64,
@@ -144,7 +149,7 @@ pub fn model(robot: &Robot, provenance: &Provenance) -> TextFile {
         yaw = digits(robot.model.sensor().yaw),
     );
     for roller in &rollers {
-        text += &body(robot, roller, &suspension);
+        text += &body(robot, roller, &suspension, rollers.len());
     }
     text += "    </body>\n  </worldbody>\n  <contact>\n";
     for roller in &rollers {
@@ -175,8 +180,11 @@ fn name(roller: &Roller) -> String {
 }
 
 /// A roller on its spring.
-fn body(robot: &Robot, roller: &Roller, suspension: &Suspension) -> String {
-    let Suspension { mass, radius, stiffness, damping, deflection, roll_damping, .. } = suspension;
+fn body(robot: &Robot, roller: &Roller, suspension: &Suspension, count: usize) -> String {
+    let Suspension { mass, radius, stiffness, damping, deflection, roll_damping, timestep, .. } =
+        suspension;
+    // I = k_v r² times the time in which it follows
+    let rotor = gain(robot, roller, count) * radius * radius * FOLLOWING * timestep;
     let name = name(roller);
     let half = digits(Roller::half_width(robot.width));
     let [x, y] = roller.place;
@@ -186,7 +194,7 @@ fn body(robot: &Robot, roller: &Roller, suspension: &Suspension) -> String {
          damping=\"{damping}\" springref=\"{rest}\"/>
         <joint name=\"{name}_roll\" type=\"hinge\" axis=\"1 0 0\" pos=\"0.0 0.0 {ground}\" \
          damping=\"{roll_damping}\"/>
-        <joint name=\"{name}_drive\" type=\"hinge\" axis=\"0 1 0\"/>
+        <joint name=\"{name}_drive\" type=\"hinge\" axis=\"0 1 0\" armature=\"{rotor}\"/>
         <inertial pos=\"0 0 0\" mass=\"{mass}\" diaginertia=\"{inertia}\"/>
         <geom name=\"{name}\" type=\"capsule\" fromto=\"0.0 -{half} 0.0 0.0 {half} 0.0\" \
          size=\"{radius}\" contype=\"0\" conaffinity=\"0\"/>
@@ -198,18 +206,24 @@ fn body(robot: &Robot, roller: &Roller, suspension: &Suspension) -> String {
         rest = digits(-deflection * roller.preload),
         ground = digits(-radius),
         roll_damping = digits(*roll_damping),
+        rotor = digits(rotor),
         mass = digits(*mass),
         inertia = row(&[mass * radius * radius; 3]),
         radius = digits(*radius),
     )
 }
 
+/// Force of an actuator per speed that its roller lacks, N s/m.
+fn gain(robot: &Robot, roller: &Roller, count: usize) -> f64 {
+    let Friction { across, along } = roller.friction;
+    across.max(along) * robot.mass * STANDARD_GRAVITY / real(count) / DROOP
+}
+
 /// The actuator that keeps a roller at the speed of its belt, m/s.
 fn actuator(robot: &Robot, roller: &Roller, suspension: &Suspension, count: usize) -> String {
     let name = name(roller);
-    let Friction { across, along } = roller.friction;
     // F = k_v (α V − V_belt)
-    let gain = across.max(along) * robot.mass * STANDARD_GRAVITY / real(count) / DROOP;
+    let gain = gain(robot, roller, count);
     let drive = robot.model.drive();
     let lag = match drive.time_constant[roller.side] {
         lag if lag > 0.0 => format!(" dyntype=\"filterexact\" dynprm=\"{}\"", digits(lag)),

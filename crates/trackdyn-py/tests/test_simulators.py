@@ -87,6 +87,22 @@ def test_mujoco_turns_as_the_vehicle(program, tmp_path, name):
             assert abs(ours - theirs) < ICR * robot.gauge, (left, right, found, (x_l, x_r, y))
 
 
+def test_mujoco_follows_belts_that_change_their_speed(program, tmp_path):
+    """The friction of the ground bears 1.5 m/s^2 and no more of a hurry than that of the belts."""
+    mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
+    path = exported(program, ROBOTS["both"], tmp_path, "mjcf", "vehicle.mjcf.xml")
+    model = mujoco.MjModel.from_xml_path(str(path))
+    data = mujoco.MjData(model)
+    base = model.body("base_link").id
+    for k in range(int(1.4 / model.opt.timestep)):
+        time = k * model.opt.timestep
+        belts = 1.5 * (min(max(time - 0.2, 0.0), 0.4) - min(max(time - 0.9, 0.0), 0.4))
+        data.ctrl[:] = belts
+        mujoco.mj_step(model, data)
+        forward = (data.xmat[base].reshape(3, 3).T @ data.qvel[:3])[0]
+        assert forward == pytest.approx(belts, abs=0.03), time
+
+
 def test_mujoco_has_mass_and_belts_of_the_vehicle(program, tmp_path):
     mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
     robot = (

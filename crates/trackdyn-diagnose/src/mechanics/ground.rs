@@ -189,7 +189,7 @@ impl ByGround {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::evidence::planned::PlannedRun;
+    use crate::evidence::planned::{PlannedRun, READINGS};
     use crate::hypothesis::Hypothesis;
     use crate::mechanics::{Instruments, Mechanics};
     use crate::settings::Settings;
@@ -230,5 +230,55 @@ mod tests {
         }
         let resistance: ActiveEffect = "motion-resistance".parse().expect("an effect");
         assert_eq!(acts(&file.vehicle, &resistance, &evidence), Acts::Alike);
+    }
+
+    /// Solves that start from the motions of a similar model find those of solves from the table.
+    #[test]
+    fn a_departure_does_not_depend_on_where_its_solves_start() {
+        let (file, settings) = (VehicleFile::auriga_alpha(), Settings::default());
+        let filed = Hypothesis::filed(&file, &settings.prior);
+        let reading = |k: usize| {
+            let [left, right] = [0.1 * real(k % 17), 0.07 * real(k % 23)];
+            TrackSample { t: 0.03 * real(k), v_left: 0.6 - left, v_right: 0.7 - right }
+        };
+        let run = PlannedRun {
+            tracks: (0..40 * READINGS + 1).map(reading).collect(),
+            pose: Pose::new(0.1, 0.0, 0.3),
+            blocks: vec![0],
+        };
+        let noise = SegmentNoise { pose: [1e-6; 3], walk: [1e-6; 3], heading: 0.0, stamp: 0.0 };
+        let run = [run];
+        let evidence =
+            Evidence::planned(&run, noise, 0.0, &settings, |evidence| moves(&filed, evidence));
+        let with = |effect: &str| {
+            let effect: ActiveEffect = effect.parse().expect("an effect");
+            filed.with_effect(effect)
+        };
+        for (here, there) in [
+            (
+                "terrain-patch:x_m=0,y_m=0,radius_m=1,ratio=1.3",
+                "terrain-patch:x_m=0.2,y_m=0,radius_m=1.2,ratio=1.8",
+            ),
+            (
+                "ground-change:across_factor=1.2,from_s=1,until_s=8",
+                "ground-change:across_factor=0.7,from_s=0.5,until_s=9",
+            ),
+            ("slope:angle_deg=4", "slope:angle_deg=9,uphill_deg=80"),
+            ("friction-drift:rate_1_per_s=0.01", "friction-drift:rate_1_per_s=-0.01"),
+        ] {
+            let [here, there] = [here, there].map(with);
+            let before = Mechanics::new(&here, &evidence);
+            let departures = |mechanics: &Mechanics| {
+                mechanics.ground.as_ref().expect("it varies").departures.clone()
+            };
+            let from_table = departures(&Mechanics::new(&there, &evidence));
+            let from_known = departures(&Mechanics::beside(Some(&before), &there, &[], &evidence));
+            for (a, b) in from_table.iter().zip(&from_known) {
+                let off = *a - *b;
+                // solves are exact to 1e-8 of the weight
+                assert!(off.v_x.abs().max(off.v_y.abs()).max(off.w.abs()) < 1e-7, "{a:?} {b:?}");
+            }
+            assert!(from_table.iter().any(|departure| *departure != Twist::zero()));
+        }
     }
 }

@@ -22,7 +22,7 @@ group! {
             "66 pairs.",
             "Lower: what shows only together is missed.";
         /// Singles refitted in a round.
-        max_refitted_singles: usize = 3, "", [1.0, 100.0],
+        max_refitted_singles: usize = 8, "", [1.0, 100.0],
             "Each takes a simulation.",
             "Lower: look-alikes win.";
         /// Pairs refitted in a round.
@@ -33,7 +33,7 @@ group! {
         max_refitted_exchanges: usize = 2, "", [0.0, 100.0],
             "Each takes a simulation.",
             "Lower: look-alikes win.";
-        /// Part of the best gain from which others are refitted.
+        /// Part of what the best refit kept that others must promise.
         min_relative_gain: f64 = 0.8, "", [0.0, 1.0],
             "Room for the screen's error.",
             "Higher: the truth is passed over.";

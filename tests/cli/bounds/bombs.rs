@@ -77,6 +77,9 @@ fn mcap() {
     // a list of 2³¹ names
     let list = [&[0, 1, 0, 0][..], &[0; 8], &text("a\0"), &[0, 0, 0], &[0, 0, 0, 0x80]].concat();
     write(&place, "list.mcap", &bag(&[joints.clone(), message(&list)]));
+    // a schema whose name claims 4 GB
+    let name = record(3, &[&[1, 0][..], &u32::MAX.to_le_bytes(), b"name"].concat());
+    write(&place, "name.mcap", &bag(&[joints.clone(), name]));
     // a record of 2⁶³ bytes, and a file that ends within a chunk
     let endless = [&[5][..], &(1_u64 << 63).to_le_bytes()].concat();
     write(&place, "record.mcap", &bag(&[joints.clone(), endless]));
@@ -95,6 +98,7 @@ fn mcap() {
         "none.mcap",
         "message.mcap",
         "list.mcap",
+        "name.mcap",
         "record.mcap",
         "cut.mcap",
         "file.mcap.zstd",

@@ -28,6 +28,8 @@ struct Message {
     /// Its type, without `msg/`.
     kind: String,
     members: Vec<Member>,
+    /// Whether no byte stands for it: in ROS 1, and in ROS 2.
+    is_sizeless: [bool; 2],
 }
 
 /// A member of a message.
@@ -93,7 +95,9 @@ impl<'a, F: Fn(&str) -> Option<&'a str>> Builder<F> {
         let text =
             (self.text)(kind).ok_or_else(|| format!("the definition of {kind} is not there"))?;
         let place = self.messages.len();
-        self.messages.push(Message { kind: kind.to_owned(), members: Vec::new() });
+        let none_yet =
+            Message { kind: kind.to_owned(), members: Vec::new(), is_sizeless: [false; 2] };
+        self.messages.push(none_yet);
         let package = kind.split_once('/').map_or("", |(package, _)| package);
         let mut members = Vec::new();
         for line in text::members(text) {
@@ -120,7 +124,19 @@ impl<'a, F: Fn(&str) -> Option<&'a str>> Builder<F> {
             members.push(Member { name: line.name.to_owned(), kind: found, count: line.count });
         }
         self.places.insert(kind.to_owned(), place);
+        let are_sizeless = |ros: usize| {
+            members.iter().all(|member| match (member.count, member.kind) {
+                (Count::Fixed(0), _) => true,
+                (Count::One | Count::Fixed(_), Kind::Message(inner)) => {
+                    self.messages[inner].is_sizeless[ros]
+                }
+                _ => false,
+            })
+        };
+        // ROS 2 writes a byte where a message has no members.
+        let is_sizeless = [are_sizeless(0), are_sizeless(1) && !members.is_empty()];
         self.messages[place].members = members;
+        self.messages[place].is_sizeless = is_sizeless;
         Ok(place)
     }
 }

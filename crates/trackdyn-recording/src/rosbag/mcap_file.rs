@@ -10,12 +10,13 @@
 
 use super::mcap_chunk::{Chunks, Decompressed};
 use super::part::Part;
+use super::ros1_record::split_sized;
 use super::stream::{ENDS_EARLY, MAX_SIZE, Stream, without_topic};
 use super::topic::Topic;
 use super::visitor::Visitor;
 use crate::Error;
 use crate::recording::Warning;
-use mcap::records::{Record, op};
+use mcap::records::op;
 use std::collections::HashMap;
 
 /// Operation code and length of a record.
@@ -142,7 +143,7 @@ fn take(
         }
         return Ok(());
     }
-    channels.learn(opcode, data, visitor).map_err(|error| error.to_string())
+    channels.learn(opcode, data, visitor).map_err(str::to_owned)
 }
 
 /// Shows a message record, whose layout is: channel (2 bytes), sequence (4), log time (8),
@@ -160,36 +161,58 @@ fn show(record: &[u8], channels: &Channels, visitor: &mut dyn Visitor) -> bool {
 }
 
 impl Channels {
-    /// Takes note of schemas and channels.
+    /// Takes note of schemas and channels. Their layouts are: id (2 bytes), name, encoding,
+    /// definition; id (2), id of the schema (2), topic, encoding, further texts.
     fn learn(
         &mut self,
         opcode: u8,
         data: &[u8],
         visitor: &mut dyn Visitor,
-    ) -> mcap::McapResult<()> {
-        if !matches!(opcode, op::SCHEMA | op::CHANNEL) {
-            return Ok(());
-        }
-        match mcap::parse_record(opcode, data)? {
-            Record::Schema { header, data } => {
-                if ["ros2msg", "ros1msg"].contains(&header.encoding.as_str()) {
-                    visitor.defines(&header.name, &String::from_utf8_lossy(&data));
-                }
-                self.kinds.insert(header.id, header.name);
+    ) -> Result<(), &'static str> {
+        if opcode == op::SCHEMA {
+            let schema = id(data).and_then(|(id, rest)| {
+                let (name, rest) = text(rest)?;
+                let (encoding, rest) = text(rest)?;
+                let (definition, _) = split_sized(rest)?;
+                Some((id, name, encoding, definition))
+            });
+            let (id, name, encoding, definition) = schema.ok_or("a schema is damaged")?;
+            if ["ros2msg", "ros1msg"].contains(&encoding) {
+                visitor.defines(name, &String::from_utf8_lossy(definition));
             }
-            Record::Channel(channel) if !self.topics.contains_key(&channel.id) => {
+            self.kinds.insert(id, name.to_owned());
+        } else if opcode == op::CHANNEL {
+            let channel = id(data).and_then(|(channel, rest)| {
+                let (schema, rest) = id(rest)?;
+                let (name, rest) = text(rest)?;
+                let (encoding, _) = text(rest)?;
+                Some((channel, schema, name, encoding))
+            });
+            let (channel, schema, name, encoding) = channel.ok_or("a channel is damaged")?;
+            if !self.topics.contains_key(&channel) {
                 let topic = Topic {
-                    name: channel.topic,
-                    kind: self.kinds.get(&channel.schema_id).cloned().unwrap_or_default(),
-                    encoding: channel.message_encoding,
+                    name: name.to_owned(),
+                    kind: self.kinds.get(&schema).cloned().unwrap_or_default(),
+                    encoding: encoding.to_owned(),
                 };
                 let wanted = visitor.wants(&topic);
-                self.topics.insert(channel.id, (topic, wanted));
+                self.topics.insert(channel, (topic, wanted));
             }
-            _ => {}
         }
         Ok(())
     }
+}
+
+/// A number of a schema or a channel, and the rest.
+fn id(bytes: &[u8]) -> Option<(u16, &[u8])> {
+    let (id, rest) = bytes.split_first_chunk::<2>()?;
+    Some((u16::from_le_bytes(*id), rest))
+}
+
+/// A text after its length, and the rest.
+fn text(bytes: &[u8]) -> Option<(&str, &[u8])> {
+    let (text, rest) = split_sized(bytes)?;
+    Some((std::str::from_utf8(text).ok()?, rest))
 }
 
 /// The records of a file, one after the other.
@@ -253,4 +276,41 @@ impl Records {
 /// The parts of the head of a record.
 fn opcode_and_length([opcode, length @ ..]: [u8; HEAD_SIZE]) -> (u8, u64) {
     (opcode, u64::from_le_bytes(length))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct All;
+
+    impl Visitor for All {
+        fn wants(&mut self, _: &Topic) -> bool {
+            true
+        }
+
+        fn message(&mut self, _: &Topic, _: i64, _: &[u8]) {}
+    }
+
+    /// Memory for a text is taken by the bytes that are there, not by those that it claims.
+    #[test]
+    fn texts_that_are_longer_than_their_record_are_damage() {
+        let count = |count: usize| u32::try_from(count).expect("few").to_le_bytes();
+        let text = |text: &str| [&count(text.len())[..], text.as_bytes()].concat();
+        let schema = [&[3, 0][..], &text("sensor_msgs/msg/Imu"), &text("ros2msg"), &text("")];
+        let channel = [&[7, 0, 3, 0][..], &text("/imu"), &text("cdr"), &text("")];
+        let (schema, channel) = (schema.concat(), channel.concat());
+        let mut channels = Channels::default();
+        for (opcode, place, whole) in [(op::SCHEMA, 2, &schema), (op::CHANNEL, 4, &channel)] {
+            let mut claiming = whole.clone();
+            claiming[place..place + 4].copy_from_slice(&u32::MAX.to_le_bytes());
+            assert!(channels.learn(opcode, &claiming, &mut All).is_err());
+            assert!(channels.learn(opcode, &whole[..whole.len() - 5], &mut All).is_err());
+            assert!(channels.learn(opcode, &[], &mut All).is_err());
+            assert_eq!(channels.learn(opcode, whole, &mut All), Ok(()));
+        }
+        let topic = &channels.topics[&7].0;
+        let found = [&topic.name, &topic.kind, &topic.encoding].map(String::as_str);
+        assert_eq!(found, ["/imu", "sensor_msgs/msg/Imu", "cdr"]);
+    }
 }

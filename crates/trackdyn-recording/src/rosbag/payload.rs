@@ -180,11 +180,6 @@ impl<'a> Payload<'a> {
         })
     }
 
-    /// Where it stands, in bytes from the beginning.
-    pub(super) fn place(&self) -> usize {
-        self.at
-    }
-
     /// Whether a length in bytes stands before arrays of other than numbers, as in XCDR2.
     pub(super) fn delimits_arrays(&self) -> bool {
         self.encoding == Encoding::Cdr && self.widest < 8

@@ -186,14 +186,17 @@ impl Definition {
             Kind::WideText => return Err("a wide text stands before the field".to_owned()),
             Kind::Text | Kind::Message(_) => {}
         }
+        let ros = usize::from(payload.encoding() == Encoding::Cdr);
+        if let Kind::Message(inner) = kind
+            && self.messages[inner].is_sizeless[ros]
+        {
+            // However many there are: messages of such messages grow without end.
+            return Ok(());
+        }
         for _ in 0..count {
-            let before = payload.place();
             match kind {
                 Kind::Message(inner) if self.messages[inner].members.is_empty() => {
-                    // ROS 2 writes a byte where a message has no members.
-                    if payload.encoding() == Encoding::Cdr {
-                        payload.skip(1, 1).map_err(decode)?;
-                    }
+                    payload.skip(1, 1).map_err(decode)?;
                 }
                 Kind::Message(inner) => {
                     for member in &self.messages[inner].members {
@@ -204,10 +207,6 @@ impl Definition {
                     let length = payload.length().map_err(decode)?;
                     payload.skip(1, length).map_err(decode)?;
                 }
-            }
-            if payload.place() == before {
-                // Elements of no size are as good as passed, however many there are.
-                break;
             }
         }
         Ok(())
@@ -246,5 +245,28 @@ mod tests {
         assert_eq!(definition.number(&route("key[1]").expect("there"), &payload), Ok(101.0));
         assert_eq!(definition.stamp(&payload), Ok(Some(1_700_000_000_000_000_005)));
         assert!(route("header.stamp").expect_err("a time").contains("no number"));
+    }
+
+    /// Ten members in each of twenty messages are 10²⁰ places at which nothing stands.
+    #[test]
+    fn messages_without_bytes_are_passed_at_once() {
+        let rule = "=".repeat(80);
+        for (encoding, last) in [(Encoding::Ros1, ""), (Encoding::Cdr, "uint8[0] nothing")] {
+            let mut text = "Level0 first\nint8 speed\n".to_owned();
+            for level in 0..20 {
+                text += &format!("{rule}\nMSG: robot/Level{level}\n");
+                for member in 0..10 {
+                    text += &format!("Level{} member{member}\n", level + 1);
+                }
+            }
+            text += &format!("{rule}\nMSG: robot/Level20\n{last}\n");
+            let mut texts = Texts::default();
+            texts.add("robot/Wheel", &text);
+            let definition = texts.definition("robot/Wheel").expect("a definition");
+            let bytes: &[u8] = if encoding == Encoding::Ros1 { &[7] } else { &[0, 1, 0, 0, 7] };
+            let payload = Payload::of(encoding, bytes).expect("a payload");
+            let route = definition.route(&Field::parse("speed").expect("a path")).expect("there");
+            assert_eq!(definition.number(&route, &payload), Ok(7.0));
+        }
     }
 }

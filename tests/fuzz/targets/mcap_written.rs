@@ -1,0 +1,9 @@
+//! `.mcap` files that were written as they should be, and then damaged.
+
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use trackdyn_fuzz::bag::Bag;
+use trackdyn_fuzz::reading;
+
+fuzz_target!(|bag: Bag| reading::bag(&bag.mcap(), bag.wanted));

@@ -252,14 +252,14 @@ mod tests {
     fn messages_without_bytes_are_passed_at_once() {
         let rule = "=".repeat(80);
         for (encoding, last) in [(Encoding::Ros1, ""), (Encoding::Cdr, "uint8[0] nothing")] {
-            let mut text = "Level0 first\nint8 speed\n".to_owned();
-            for level in 0..20 {
-                text += &format!("{rule}\nMSG: robot/Level{level}\n");
-                for member in 0..10 {
-                    text += &format!("Level{} member{member}\n", level + 1);
-                }
-            }
-            text += &format!("{rule}\nMSG: robot/Level20\n{last}\n");
+            let level = |level: usize| {
+                let member = |k: usize| format!("Level{} member{k}\n", level + 1);
+                let members: String = (0..10).map(member).collect();
+                format!("{rule}\nMSG: robot/Level{level}\n{members}")
+            };
+            let levels: String = (0..20).map(level).collect();
+            let last = format!("{rule}\nMSG: robot/Level20\n{last}\n");
+            let text = format!("Level0 first\nint8 speed\n{levels}{last}");
             let mut texts = Texts::default();
             texts.add("robot/Wheel", &text);
             let definition = texts.definition("robot/Wheel").expect("a definition");

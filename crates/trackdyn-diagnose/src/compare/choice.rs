@@ -27,6 +27,9 @@ pub(super) struct Claimed {
 pub(super) struct Choice {
     /// The effects, ascending.
     pub effects: Vec<EffectId>,
+    /// Those that are compared by their sizes. What constant ICRs may stand for is compared by the
+    /// ICRs: else one cause would stand for two differences.
+    pub compared: Vec<EffectId>,
     /// The fit of each set: without the effects that it cannot show.
     pub fits: [Found; 2],
 }
@@ -73,7 +76,10 @@ impl Choice {
         let better = |own: Found, again: Found| {
             if again.ln_evidence > own.ln_evidence { again } else { own }
         };
-        Ok(Self { effects, fits: [better(a, c), better(b, d)] })
+        let is_constant =
+            |effect: &EffectId| sets.iter().any(|set| set.constants.class().contains(effect));
+        let compared = effects.iter().copied().filter(|one| !is_constant(one)).collect();
+        Ok(Self { effects, compared, fits: [better(a, c), better(b, d)] })
     }
 
     /// ln evidence of both sets, where each effect has either one size or two.

@@ -109,7 +109,7 @@ fn first_with(choice: &Choice, claimed: &[Subject]) -> Hypothesis {
             friction_level: second.friction_level,
             ..moved
         };
-        for &stays in choice.fits[1].effects.iter().filter(|one| !choice.effects.contains(one)) {
+        for &stays in choice.fits[1].effects.iter().filter(|one| !choice.compared.contains(one)) {
             moved = moved.with_effect_of(second, stays);
         }
     } else if is_claimed(Subject::CentreOfGravity) {

@@ -168,7 +168,7 @@ pub(super) fn groups(
     let fits = [&choice.fits[0], &choice.fits[1]];
     let spreads = uncertainties.each_ref().map(Uncertainty::spread);
     let shown = |effect: &&EffectId| fits.iter().all(|fit| fit.effects.contains(effect));
-    let effects: Vec<EffectId> = choice.effects.iter().filter(shown).copied().collect();
+    let effects: Vec<EffectId> = choice.compared.iter().filter(shown).copied().collect();
     let mut groups = of_effects(&effects, sets, choice, uncertainties);
     let evidence = &sets[0].search.evidence;
     let hypothesis = &sets[0].search.base.as_filed.hypothesis;
@@ -262,7 +262,8 @@ fn constants(
     let of = |k: usize| -> Option<([Estimate; 3], Gradients)> {
         let Found { fit, effects, .. } = &choice.fits[k];
         let is_beside = |effect: &&EffectId| {
-            !choice.effects.contains(effect) && sets[k].constants.mostly.contains(effect)
+            !choice.compared.contains(effect)
+                && (choice.effects.contains(effect) || sets[k].constants.mostly.contains(effect))
         };
         let beside: Vec<EffectId> = effects.iter().filter(is_beside).copied().collect();
         let here = icrs(&fit.hypothesis, &beside)?;

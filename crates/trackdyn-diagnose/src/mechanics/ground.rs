@@ -242,7 +242,7 @@ mod tests {
             TrackSample { t: 0.03 * real(k), v_left: 0.6 - left, v_right: 0.7 - right }
         };
         let run = PlannedRun {
-            tracks: (0..40 * READINGS + 1).map(reading).collect(),
+            tracks: (0..=40 * READINGS).map(reading).collect(),
             pose: Pose::new(0.1, 0.0, 0.3),
             blocks: vec![0],
         };

@@ -43,31 +43,33 @@ impl Closer {
             .map(|(hypothesis, added)| vehicle(file, hypothesis, added));
         Self {
             drift: Drift::of(evidence, &before, &after),
-            errors: [error(&own, evidence), error(&moved, evidence), error(second, evidence)],
+            errors: [&own, &moved, second].map(|one| Predicted::by(one, evidence).error),
             are_held_out: judging.is_some(),
             vehicle: after,
         }
     }
 }
 
-/// Refuses differences with which the first set's model predicts the second set no better: sizes
-/// that hang together may each look different, and be wrong where one alone is set.
+/// Refuses differences with which the first set's model predicts the second set hardly better:
+/// sizes that hang together may each look different, and be wrong where one alone is set.
 ///
-/// The runs are those of the fit: there, a difference that is right makes the error smaller.
+/// The runs are those of the fit: there, differences that are right raise the log-likelihood by as
+/// much as the evidence that is asked of a claim.
 pub(super) fn judge(
     sets: [&Examination; 2],
     choice: &Choice,
     mut judged: Vec<Difference>,
 ) -> Vec<Difference> {
     let evidence = &sets[1].search.evidence;
-    let with = |claimed: &[Subject]| error(&first_with(choice, claimed), evidence);
+    let needed = evidence.settings().verdict.min_ln_bayes_factor;
+    let with = |claimed: &[Subject]| Predicted::by(&first_with(choice, claimed), evidence);
     let without = with(&[]);
     let mut claimed: Vec<Subject> =
         judged.iter().filter(|one| one.refused.is_none()).map(|one| one.group.subject).collect();
     let mut refused = Vec::new();
     while !claimed.is_empty() {
         let here = with(&claimed);
-        if here < without {
+        if here.gain_over(&without) >= needed {
             break;
         }
         // the one without which the others predict best
@@ -76,10 +78,10 @@ pub(super) fn judge(
             let others: Vec<Subject> = others.map(|(_, subject)| *subject).collect();
             (place, with(&others))
         });
-        let worst = others.min_by(|a, b| a.1.total_cmp(&b.1));
-        let (place, error) = worst.expect("a claim");
-        refused
-            .push((claimed.remove(place), NoDifference::NotCloser { without: error, with: here }));
+        let least = others.min_by(|a, b| a.1.loss.total_cmp(&b.1.loss));
+        let (place, rest) = least.expect("a claim");
+        let why = NoDifference::NotCloser { without: rest.error, with: here.error };
+        refused.push((claimed.remove(place), why));
     }
     for one in &mut judged {
         let own = refused.iter().find(|(subject, _)| *subject == one.group.subject);
@@ -149,9 +151,24 @@ fn vehicle(file: &VehicleFile, hypothesis: &Hypothesis, added: &[EffectId]) -> V
     vehicle
 }
 
-/// Weighted root mean square of the whitened residual of a hypothesis, without a fit.
-fn error(hypothesis: &Hypothesis, evidence: &Weighted) -> f64 {
-    let mechanics = Mechanics::new(hypothesis, evidence);
-    let prediction = mechanics.predict(&Instruments::of(hypothesis), evidence);
-    excess(evidence, &evidence.residual(&prediction))
+/// How well a hypothesis predicts, without a fit.
+struct Predicted {
+    /// Weighted root mean square of the whitened residual.
+    error: f64,
+    /// Twice the negative log-likelihood.
+    loss: f64,
+}
+
+impl Predicted {
+    fn by(hypothesis: &Hypothesis, evidence: &Weighted) -> Self {
+        let mechanics = Mechanics::new(hypothesis, evidence);
+        let prediction = mechanics.predict(&Instruments::of(hypothesis), evidence);
+        let residual = evidence.residual(&prediction);
+        Self { error: excess(evidence, &residual), loss: evidence.loss(&residual) }
+    }
+
+    /// Log-likelihood over that of another prediction.
+    fn gain_over(&self, other: &Self) -> f64 {
+        (other.loss - self.loss) / 2.0
+    }
 }

@@ -178,7 +178,8 @@ pub fn diagnosed_by_gyroscope(
     recording: &Recording,
     file: &VehicleFile,
 ) -> Result<Diagnosis, Error> {
-    of_evidence(&Evidence::by_gyroscope(recording, file.vehicle.gauge, &Settings::default())?, file)
+    let settings = Settings::default();
+    of_evidence(&Evidence::of_drive(recording, file.vehicle.gauge, &settings, true)?, file)
 }
 
 fn of_evidence(evidence: &Evidence, file: &VehicleFile) -> Result<Diagnosis, Error> {

@@ -216,6 +216,11 @@ impl DiagnosisFile {
         }
     }
 
+    /// The file with what the gyroscope tells, as a table.
+    pub fn with_gyroscope(self, gyroscope: Option<Table>) -> Self {
+        Self { gyroscope, ..self }
+    }
+
     /// Reads a diagnosis file.
     ///
     /// # Errors

@@ -108,12 +108,9 @@ impl Prepared {
             (None, Some(_)) => {
                 let motion = recording.expect_positions()?;
                 let held_out = settings.held_out.of_motion(motion)?;
-                let taken = if settings.gyroscope {
-                    Evidence::by_gyroscope
-                } else {
-                    Evidence::of_recording
-                };
-                let evidence = taken(motion, vehicle.gauge(), &settings.method).map_err(named)?;
+                let (gauge, by_gyroscope) = (vehicle.gauge(), settings.gyroscope);
+                let evidence = Evidence::of_drive(motion, gauge, &settings.method, by_gyroscope);
+                let evidence = evidence.map_err(named)?;
                 (evidence, held_out, Some(motion.run_list().to_string()))
             }
             (None, None) => return Err(Error::NoRecording),
@@ -250,9 +247,8 @@ impl Diagnosis {
     pub fn file(&self, provenance: &Provenance) -> DiagnosisFile {
         let seed = Some(self.of.options.resampling.seed);
         let source = Source { seed, ..self.of.source(provenance) };
-        let mut file = DiagnosisFile::new(&self.found, &source);
-        file.gyroscope = self.of.evidence.gyroscope().map(|found| GyroscopeTable::of(found).into());
-        file
+        let gyroscope = self.of.evidence.gyroscope().map(|found| GyroscopeTable::of(found).into());
+        DiagnosisFile::new(&self.found, &source).with_gyroscope(gyroscope)
     }
 
     /// The text of `vehicle.corrected.toml`: the corrected vehicle, and in its first line where it

@@ -41,20 +41,12 @@ impl Evidence {
         Self::of_drive(recording, gauge, settings, false)
     }
 
-    /// The segments of a recording whose gyroscope corrects the yaw of its poses, where it has one
-    /// that serves ([`Evidence::gyroscope`]); the rest as [`Evidence::of_recording`].
+    /// The segments of a recording: where it is wanted, with the yaw of its poses corrected by its
+    /// gyroscope, if it has one that serves ([`Evidence::gyroscope`]).
     ///
     /// # Errors
     /// Those of [`Evidence::of_recording`].
-    pub fn by_gyroscope(
-        recording: &Recording,
-        gauge: f64,
-        settings: &Settings,
-    ) -> Result<Self, Error> {
-        Self::of_drive(recording, gauge, settings, true)
-    }
-
-    fn of_drive(
+    pub fn of_drive(
         recording: &Recording,
         gauge: f64,
         settings: &Settings,

@@ -47,12 +47,14 @@ pub fn acts(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> Ac
     let is_somewhere = |role: Role| matches!(role, Role::Place { .. } | Role::Time);
     let is_local = effect.card().parameters.iter().any(|one| is_somewhere(one.role));
     let step = if is_local { 1 } else { (samples.len() / probes).max(1) };
-    let there = Acting::of(&model, &level, is_of_ground(effect), PROBED);
-    let differs = |sample: &Sample| !there.is_alike(&model, &circumstance(sample), PROBED);
+    let is_as_on_level = |other: &Model, at: &Circumstance| {
+        act_alike([&model, other], [&level, at], is_of_ground(effect), PROBED)
+    };
+    let differs = |sample: &Sample| !is_as_on_level(&model, &circumstance(sample));
     if samples.iter().step_by(step).any(differs) {
         return Acts::Varying;
     }
-    let is_absent = || there.is_alike(&coarse(vehicle, Effects::none()), &level, PROBED);
+    let is_absent = || is_as_on_level(&coarse(vehicle, Effects::none()), &level);
     if is_local && is_absent() { Acts::Nowhere } else { Acts::Alike }
 }
 
@@ -64,27 +66,19 @@ fn is_of_ground(effect: &ActiveEffect) -> bool {
     effect.card().stages.iter().all(|stage| *stage == Stage::Ground)
 }
 
-/// How a model acts on the robot at one place, heading and time.
-enum Acting {
-    /// By this ground.
-    Ground(Ground),
-    /// By these forces in a turn: friction of each side, and all others.
-    Forces([Wrench; 3]),
-}
-
-impl Acting {
-    fn of(model: &Model, at: &Circumstance, by_ground: bool, speeds: PerSide<f64>) -> Self {
-        let ground = model.ground(at);
-        if by_ground { Self::Ground(ground) } else { Self::Forces(probed(model, &ground, speeds)) }
-    }
-
-    /// Whether a model acts alike at another place, heading and time.
-    fn is_alike(&self, model: &Model, at: &Circumstance, speeds: PerSide<f64>) -> bool {
-        let ground = model.ground(at);
-        match self {
-            Self::Ground(here) => Ground { circumstance: here.circumstance, ..ground } == *here,
-            Self::Forces(here) => probed(model, &ground, speeds) == *here,
-        }
+/// Whether two models act alike on the robot, each at its place, heading and time: by their ground
+/// where it tells all, else by the forces in a turn at these belt speeds.
+fn act_alike(
+    models: [&Model; 2],
+    at: [&Circumstance; 2],
+    by_ground: bool,
+    speeds: PerSide<f64>,
+) -> bool {
+    let [here, there] = [0, 1].map(|k| models[k].ground(at[k]));
+    if by_ground {
+        Ground { circumstance: here.circumstance, ..there } == here
+    } else {
+        probed(models[0], &here, speeds) == probed(models[1], &there, speeds)
     }
 }
 
@@ -137,24 +131,19 @@ impl ByGround {
             is_of_ground(effect) || without.effects().iter().any(|constant| constant == effect)
         });
         let on_level = Stationary::new(without, &level);
-        let alike = by_ground.then(|| Acting::of(without, &level, true, PROBED));
         let samples = evidence.samples();
         let before = before.map(|before| &before.starts).filter(|of| of.len() == samples.len());
+        let known = |index: usize| before.map_or([None; 2], |before| before[index]);
         let changed = |(index, sample): (usize, &Sample)| -> Option<Changed> {
             let (speeds, at) = (drive.driven(sample.speeds, sample.start), circumstance(sample));
-            let is_alike = match &alike {
-                Some(alike) => alike.is_alike(with, &at, speeds),
-                None => Acting::of(without, &level, false, speeds).is_alike(with, &at, speeds),
-            };
             // outside a patch
-            if is_alike {
+            if act_alike([without, with], [&level, &at], by_ground, speeds) {
                 return None;
             }
-            let known = before.map_or([None; 2], |before| before[index]);
-            let there = on_level.starting_at(known[1].or_else(|| table.motion(speeds).near()));
-            let there = there.solve(speeds);
-            let near = known[0].or_else(|| there.near());
-            let near = near.or_else(|| table.motion(speeds).near());
+            let known = known(index);
+            let tabulated = || table.motion(speeds).near();
+            let there = on_level.starting_at(known[1].or_else(tabulated)).solve(speeds);
+            let near = known[0].or_else(|| there.near()).or_else(tabulated);
             let here = Stationary::from_start(with, &at, near).solve(speeds);
             let solved = [here, there];
             let usable = solved.iter().all(|one| one.status != Status::NotConverged);
@@ -175,7 +164,6 @@ impl ByGround {
         let starts = match before {
             Some(before) if real(far) <= MAX_FAR * real(all) => Arc::clone(before),
             _ => {
-                let known = |index: usize| before.map_or([None; 2], |before| before[index]);
                 let starts = changes.iter().enumerate().map(|(index, change)| {
                     change.as_ref().map_or_else(|| known(index), |change| change.starts)
                 });
@@ -203,21 +191,25 @@ mod tests {
         Mechanics::new(hypothesis, evidence).predict(&Instruments::of(hypothesis), evidence)
     }
 
+    /// One run from a pose by these readings, which moves as filed.
+    fn driven(
+        filed: &Hypothesis,
+        pose: Pose,
+        readings: impl IntoIterator<Item = TrackSample>,
+    ) -> Evidence {
+        let tracks = readings.into_iter().collect();
+        let run = [PlannedRun { tracks, pose, blocks: vec![0] }];
+        let noise = SegmentNoise { pose: [1e-6; 3], walk: [1e-6; 3], heading: 0.0, stamp: 0.0 };
+        Evidence::planned(&run, noise, 0.0, &Settings::default(), |evidence| moves(filed, evidence))
+    }
+
     /// A robot that turns thirty metres from the origin of its poses.
     #[test]
     fn ground_where_the_robot_never_is_changes_nothing_wherever_poses_are_counted_from() {
-        let (file, settings) = (VehicleFile::auriga_alpha(), Settings::default());
-        let filed = Hypothesis::filed(&file, &settings.prior);
+        let file = VehicleFile::auriga_alpha();
+        let filed = Hypothesis::filed(&file, &Settings::default().prior);
         let reading = |k| TrackSample { t: 0.03 * real(k), v_left: -0.2, v_right: 0.5 };
-        let run = PlannedRun {
-            tracks: (0..91).map(reading).collect(),
-            pose: Pose::new(30.0, 0.0, 0.0),
-            blocks: vec![0],
-        };
-        let noise = SegmentNoise { pose: [1e-6; 3], walk: [1e-6; 3], heading: 0.0, stamp: 0.0 };
-        let run = [run];
-        let evidence =
-            Evidence::planned(&run, noise, 0.0, &settings, |evidence| moves(&filed, evidence));
+        let evidence = driven(&filed, Pose::new(30.0, 0.0, 0.0), (0..91).map(reading));
         for (x, acts_there) in [(0.0, Acts::Varying), (-50.0, Acts::Nowhere), (30.0, Acts::Varying)]
         {
             let patch: ActiveEffect =
@@ -235,21 +227,14 @@ mod tests {
     /// Solves that start from the motions of a similar model find those of solves from the table.
     #[test]
     fn a_departure_does_not_depend_on_where_its_solves_start() {
-        let (file, settings) = (VehicleFile::auriga_alpha(), Settings::default());
-        let filed = Hypothesis::filed(&file, &settings.prior);
+        let file = VehicleFile::auriga_alpha();
+        let filed = Hypothesis::filed(&file, &Settings::default().prior);
         let reading = |k: usize| {
             let [left, right] = [0.1 * real(k % 17), 0.07 * real(k % 23)];
             TrackSample { t: 0.03 * real(k), v_left: 0.6 - left, v_right: 0.7 - right }
         };
-        let run = PlannedRun {
-            tracks: (0..=40 * READINGS).map(reading).collect(),
-            pose: Pose::new(0.1, 0.0, 0.3),
-            blocks: vec![0],
-        };
-        let noise = SegmentNoise { pose: [1e-6; 3], walk: [1e-6; 3], heading: 0.0, stamp: 0.0 };
-        let run = [run];
-        let evidence =
-            Evidence::planned(&run, noise, 0.0, &settings, |evidence| moves(&filed, evidence));
+        let readings = (0..=40 * READINGS).map(reading);
+        let evidence = driven(&filed, Pose::new(0.1, 0.0, 0.3), readings);
         let with = |effect: &str| {
             let effect: ActiveEffect = effect.parse().expect("an effect");
             filed.with_effect(effect)

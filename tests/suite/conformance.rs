@@ -3,6 +3,7 @@
 mod adding_an_effect;
 mod arrows;
 mod circles;
+mod compiled_once;
 mod crates;
 mod licences;
 mod literals;

@@ -10,7 +10,7 @@ mod places;
 
 use crate::evidence::Evidence;
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral};
-use crate::mechanics::{Instruments, Mechanics, feels_inertia, is_instrument};
+use crate::mechanics::{Instruments, Mechanics, is_instrument};
 use crate::prior::area;
 use crate::progress::Cancelled;
 use crate::weighted::Weighted;
@@ -101,26 +101,8 @@ impl Variant {
 pub struct Beside<'a> {
     hypothesis: &'a Hypothesis,
     evidence: &'a Weighted,
-    /// The hypothesis itself.
-    moving: Prepared,
-    /// The hypothesis without inertia: effects that neither depend on acceleration nor change the
-    /// response to it are computed from stationary motion, which is faster.
-    still: Prepared,
-}
-
-/// A hypothesis with its prediction.
-struct Prepared {
-    hypothesis: Hypothesis,
     mechanics: Mechanics,
     prediction: Vec<Vector3<f64>>,
-}
-
-impl Prepared {
-    fn new(hypothesis: Hypothesis, evidence: &Evidence) -> Self {
-        let mechanics = Mechanics::new(&hypothesis, evidence);
-        let prediction = mechanics.predict(&Instruments::of(&hypothesis), evidence);
-        Self { hypothesis, mechanics, prediction }
-    }
 }
 
 /// Indices of the sizes among an effect's parameters.
@@ -237,15 +219,9 @@ fn spacing(parameter: &Parameter, extent: Option<f64>, evidence: &Evidence) -> f
 impl<'a> Beside<'a> {
     /// A hypothesis on this evidence.
     pub fn new(hypothesis: &'a Hypothesis, evidence: &'a Weighted) -> Self {
-        let vehicle = &hypothesis.vehicle;
-        let still = hypothesis.effects.iter().filter(|effect| !feels_inertia(vehicle, effect));
-        let still = Hypothesis { effects: still.cloned().collect(), ..hypothesis.clone() };
-        Self {
-            hypothesis,
-            evidence,
-            moving: Prepared::new(hypothesis.clone(), evidence),
-            still: Prepared::new(still, evidence),
-        }
+        let mechanics = Mechanics::new(hypothesis, evidence);
+        let prediction = mechanics.predict(&Instruments::of(hypothesis), evidence);
+        Self { hypothesis, evidence, mechanics, prediction }
     }
 
     /// Whether the hypothesis has the effect already.
@@ -255,24 +231,19 @@ impl<'a> Beside<'a> {
 
     /// Change of the prediction by an effect; none where it has no motion.
     fn change(&self, effect: ActiveEffect) -> Option<Vec<Vector3<f64>>> {
-        let vehicle = &self.hypothesis.vehicle;
-        // Friction laws that break no symmetry respond to acceleration like the friction level.
-        let answers = effect.card().shears() && !effect.card().breaks.is_empty();
-        let is_moving = answers || feels_inertia(vehicle, &effect);
-        let base = if is_moving { &self.moving } else { &self.still };
-        let is_instrument = is_instrument(vehicle, &effect);
-        let with = base.hypothesis.with_effect(effect);
+        let is_instrument = is_instrument(&self.hypothesis.vehicle, &effect);
+        let with = self.hypothesis.with_effect(effect);
         let instruments = Instruments::of(&with);
         let with = if is_instrument {
-            base.mechanics.predict(&instruments, self.evidence)
+            self.mechanics.predict(&instruments, self.evidence)
         } else {
-            let mechanics = Mechanics::beside(Some(&base.mechanics), &with, &[], self.evidence);
+            let mechanics = Mechanics::beside(Some(&self.mechanics), &with, &[], self.evidence);
             if mechanics.failure().is_some() {
                 return None;
             }
             mechanics.predict(&instruments, self.evidence)
         };
-        let changes = with.iter().zip(&base.prediction).map(|(with, without)| with - without);
+        let changes = with.iter().zip(&self.prediction).map(|(with, without)| with - without);
         let changes: Vec<Vector3<f64>> = changes.collect();
         // A NaN would spoil all other columns of the normal equations.
         let are_numbers = changes.iter().flatten().all(|change| change.is_finite());
@@ -309,6 +280,63 @@ impl<'a> Beside<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::evidence::planned::{PlannedRun, READINGS};
+    use crate::hypothesis::typical;
+    use crate::plan::assumed_noise;
+    use crate::settings::Settings;
+    use trackdyn_core::{Pose, real};
+    use trackdyn_model::VehicleFile;
+    use trackdyn_recording::TrackSample;
+
+    /// Turns in which both tracks change their speeds by 1.5 m/s² all the time.
+    fn restless() -> Weighted {
+        let wave = |t: f64, period: f64| (4.0 * (t / period).fract() - 2.0).abs() - 1.0;
+        let reading = |k: usize| {
+            let t = 0.03 * real(k);
+            TrackSample { t, v_left: 0.6 * wave(t, 1.6), v_right: 0.75 * wave(t + 0.3, 2.0) }
+        };
+        let tracks = (0..=60 * READINGS).map(reading).collect();
+        let run = PlannedRun { tracks, pose: Pose::default(), blocks: vec![0] };
+        let noise = assumed_noise(1e-3, 1e-3);
+        Weighted::new(Evidence::planned(&[run], noise, 0.0, &Settings::default(), |evidence| {
+            vec![Vector3::zeros(); evidence.samples().len()]
+        }))
+    }
+
+    /// A robot that accelerates all the time answers each effect otherwise than a steady one. What
+    /// instruments change of the acceleration itself is left to the fit.
+    #[test]
+    fn a_signature_beside_inertia_is_the_change_of_a_whole_simulation() {
+        let evidence = restless();
+        let predicted = |of: &Hypothesis| {
+            Mechanics::new(of, &evidence).predict(&Instruments::of(of), &evidence)
+        };
+        let still = Hypothesis::filed(&VehicleFile::auriga_alpha(), &evidence.settings().prior);
+        let with = |of: Hypothesis, id: &str| of.with_effect(id.parse().expect("an effect"));
+        let moving = ["yaw-inertia", "centripetal"].into_iter().fold(still, with);
+        let filed = with(moving.clone(), "load-transfer:cog_height_m=0.1");
+        let height = EffectId::of("load-transfer").expect("an effect");
+        let mut cases: Vec<(&Hypothesis, ActiveEffect)> =
+            [0.11, 0.2].map(|to| (&filed, active(height, &[to]))).to_vec();
+        let others = EffectId::all().filter(|one| {
+            let card = one.card();
+            !card.is_form() && !card.is_inertia() && !is_instrument(&moving.vehicle, &typical(*one))
+        });
+        cases.extend(others.map(|one| (&moving, typical(one))));
+        for (base, effect) in cases {
+            let id = effect.card().id;
+            let whole = predicted(&base.with_effect(effect.clone()));
+            let found = Beside::new(base, &evidence).change(effect).expect("it drives");
+            let (mut off, mut all) = (0.0, 0.0);
+            for ((found, whole), here) in found.iter().zip(&whole).zip(&predicted(base)) {
+                off += (found - (whole - here)).norm_squared();
+                all += (whole - here).norm_squared();
+            }
+            // a patch may lie where the robot never is
+            let is_whole = off <= 0.0025 * all + 1e-12;
+            assert!(is_whole, "{id}: {} of the change is missing", (off / all).sqrt());
+        }
+    }
 
     #[test]
     fn shapes_are_tried_on_both_sides_or_inside_of_an_end() {

@@ -7,6 +7,21 @@ use std::ops::Range;
 /// A whitened column.
 pub type Column = Vec<Vector3<f64>>;
 
+/// Square of the norm of a column.
+pub fn square(column: &Column) -> f64 {
+    column.iter().map(Vector3::norm_squared).sum()
+}
+
+/// The part of a column at right angles to another.
+pub fn at_right_angles(mut column: Column, to: &Column) -> Column {
+    let product: f64 = column.iter().zip(to).map(|(a, b)| a.dot(b)).sum();
+    let factor = product / square(to).max(f64::MIN_POSITIVE);
+    for (value, along) in column.iter_mut().zip(to) {
+        *value -= along * factor;
+    }
+    column
+}
+
 /// Columns of a linear fit in one list: the free ones first, then groups of others.
 #[derive(Clone, Debug, Default)]
 pub struct Stack {

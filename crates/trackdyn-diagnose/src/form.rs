@@ -10,6 +10,9 @@
 //! mean square, and c_j normal with variance τ²/n. A law that breaks neither S nor P has no other
 //! form at other speeds; ε varies with direction, side and time only where the law itself does.
 //!
+//! A size in the vehicle file that is not fitted is known to a part. The form of such a law is what
+//! is at right angles to its size: a wrong size must not pass for another form.
+//!
 //! The c_j are factors of columns d b_j beside those of the unknowns. τ is none or one of a few
 //! values, all equally probable: the evidence is the mean over them, and the most probable value
 //! weighs the columns wherever else they count.
@@ -18,7 +21,7 @@
 //! d is taken as size times derivative.
 
 use crate::candidate::{Catalogue, sizes};
-use crate::equations::Column;
+use crate::equations::{Column, Equations, at_right_angles, square};
 use crate::evidence::{Evidence, Sample};
 use crate::fit::Fit;
 use crate::hypothesis::{Unknown, beyond_none, typical};
@@ -38,6 +41,8 @@ pub struct Forms {
     pub columns: Vec<Column>,
     /// Prior of the factor of each column.
     pub priors: Vec<Prior>,
+    /// Standard deviations of the factors of the first columns; the others have their own.
+    shares: Vec<Share>,
     /// Most probable relative standard deviation τ of the forms; zero where they are exact.
     pub deviation: f64,
     /// ln of the mean evidence over all τ, less that of exact forms.
@@ -75,7 +80,7 @@ impl Forms {
         let best = gains.iter().zip(deviations).max_by(|a, b| a.0.total_cmp(b.0));
         match best.filter(|(gain, _)| **gain > 0.0) {
             Some((_, &deviation)) => {
-                Self { columns, priors: scaled(&shares, deviation), deviation, gain }
+                Self { columns, priors: scaled(&shares, deviation), shares, deviation, gain }
             }
             None => Self { gain, ..Self::default() },
         }
@@ -92,38 +97,82 @@ impl Forms {
     /// Forms with this τ, whatever the evidence says of it.
     pub fn at(fit: &Fit, deviation: f64, catalogue: &Catalogue, evidence: &Weighted) -> Self {
         let (columns, shares) = columns(fit, deviation, catalogue, evidence);
-        Self { columns, priors: scaled(&shares, deviation), deviation, gain: 0.0 }
+        Self { columns, priors: scaled(&shares, deviation), shares, deviation, gain: 0.0 }
+    }
+
+    /// The equations at each of these τ and without forms, which all are equally probable. Their
+    /// forms are at `first` and after; only the equations themselves where laws are exact.
+    pub fn alternatives(
+        &self,
+        equations: Equations,
+        first: usize,
+        deviations: &[f64],
+    ) -> Vec<Equations> {
+        let own = first..first + self.shares.len();
+        if own.is_empty() {
+            return vec![equations];
+        }
+        let at = |&deviation: &f64| {
+            let mut there = equations.clone();
+            there.priors.splice(own.clone(), scaled(&self.shares, deviation));
+            there
+        };
+        let mut all: Vec<Equations> = deviations.iter().map(at).collect();
+        let mut exact = equations;
+        exact.free.retain(|column| !own.contains(column));
+        all.push(exact);
+        all
+    }
+}
+
+/// Standard deviation of the factor of a column.
+#[derive(Clone, Copy, Debug)]
+enum Share {
+    /// As part of τ.
+    OfForms(f64),
+    /// Whatever τ is.
+    Known(f64),
+}
+
+impl Share {
+    fn at(self, deviation: f64) -> f64 {
+        match self {
+            Self::OfForms(part) => part * deviation,
+            Self::Known(deviation) => deviation,
+        }
     }
 }
 
 /// Priors of factors that have these shares of a deviation.
-fn scaled(shares: &[f64], deviation: f64) -> Vec<Prior> {
-    shares.iter().map(|share| Prior::normal(0.0, share * deviation)).collect()
+fn scaled(shares: &[Share], deviation: f64) -> Vec<Prior> {
+    shares.iter().map(|share| Prior::normal(0.0, share.at(deviation))).collect()
 }
 
-/// Columns of all laws of a fit, each with the deviation of its factor as part of τ; without those
-/// that show nothing at this τ.
+/// Columns of all laws of a fit, each with the deviation of its factor; without those that show
+/// nothing at this τ.
 fn columns(
     fit: &Fit,
     deviation: f64,
     catalogue: &Catalogue,
     evidence: &Weighted,
-) -> (Vec<Column>, Vec<f64>) {
+) -> (Vec<Column>, Vec<Share>) {
     let functions = Functions::of(evidence);
-    let mut columns: Vec<(Column, f64)> = Vec::new();
+    let mut columns: Vec<(Column, Share)> = Vec::new();
     for law in fit.hypothesis.effects.iter().map(ActiveEffect::effect) {
         let Some(change) = change(fit, catalogue, law) else { continue };
-        let change = evidence.raw(change);
+        let raw = evidence.raw(change.clone());
         let smooth = functions.of_law(law);
-        let share = real(smooth.len()).sqrt().recip();
-        for function in smooth {
-            columns.extend(products(&change, function, evidence).map(|column| (column, share)));
+        let share = Share::OfForms(real(smooth.len()).sqrt().recip());
+        let products = smooth.into_iter().flat_map(|function| products(&raw, function, evidence));
+        if fit.unknowns.iter().any(|unknown| unknown.is_of(law)) {
+            columns.extend(products.map(|column| (column, share)));
+        } else {
+            columns.extend(products.map(|column| (at_right_angles(column, &change), share)));
+            let known = Share::Known(evidence.settings().verdict.max_form_error);
+            columns.push((change, known));
         }
     }
-    columns.retain(|(column, share)| {
-        let norm = column.iter().map(Vector3::norm_squared).sum::<f64>().sqrt();
-        deviation * share * norm > MIN_NORM
-    });
+    columns.retain(|(column, share)| share.at(deviation) * square(column).sqrt() > MIN_NORM);
     columns.into_iter().unzip()
 }
 
@@ -250,6 +299,7 @@ fn standardised(values: Vec<f64>) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::candidate::{Signature, Variant};
     use crate::evidence::planned::{PlannedRun, READINGS};
     use crate::hypothesis::{Hypothesis, active, unknowns_of};
     use crate::mechanics::{Instruments, Mechanics};
@@ -325,6 +375,40 @@ mod tests {
         assert!(forms.deviation > 0.0 && forms.gain > 20.0, "{} {}", forms.deviation, forms.gain);
         // The size is the mean over the forms: known to a part of τ, not to the noise.
         assert!(whole > 3.0 * exact && whole > 0.02, "{exact} {whole}");
+    }
+
+    /// A law of the vehicle file is there with twice its size: that is no other form.
+    #[test]
+    fn a_wrong_size_in_the_file_is_no_form() {
+        let law = EffectId::of("viscous-friction").expect("an effect");
+        let settings = Settings::default();
+        let plain = Hypothesis::filed(&VehicleFile::auriga_alpha(), &settings.prior);
+        let [filed, there] = [0.3, 0.6].map(|size| plain.with_effect(active(law, &[size])));
+        let predicted = |of: &Hypothesis, evidence: &Evidence| {
+            Mechanics::new(of, evidence).predict(&Instruments::of(of), evidence)
+        };
+        let noise = assumed_noise(1e-4, 1e-4);
+        let evidence = Evidence::planned(&runs(), noise, 0.0, &settings, |evidence| {
+            predicted(&there, evidence)
+        });
+        let evidence = Weighted::new(evidence);
+        let fit = Fit::new(filed.clone(), &[], &evidence, None);
+        let [here, twice] = [&filed, &there].map(|of| predicted(of, &evidence));
+        let change = twice.iter().zip(&here).map(|(twice, here)| (twice - here) / 0.3).collect();
+        let column = evidence.white(change);
+        let signature = Signature { unknown: Unknown::Effect(law, 0), column: column.clone() };
+        let variant = Variant { effect: law, values: vec![0.3] };
+        let catalogue = Catalogue { entries: vec![(variant, vec![signature])] };
+        let forms = Forms::at(&fit, 0.4, &catalogue, &evidence);
+        let normal = evidence.normal(&fit.residual, &[&forms.columns[..], &[column]].concat());
+        let columns: Vec<usize> = (0..forms.columns.len()).collect();
+        let misfit = normal.fit(&columns, &forms.priors).misfit;
+        let priors = [&forms.priors[..], &[Prior::flat()]].concat();
+        let all: Vec<usize> = (0..=columns.len()).collect();
+        let free = normal.fit(&all, &priors);
+        // known to a tenth of 0.3, and 0.3 away: ten standard deviations, and all of its χ²
+        assert!(misfit - free.misfit > 60.0, "{misfit} {}", free.misfit);
+        assert!(free.misfit < 0.2 * misfit, "{misfit} {}", free.misfit);
     }
 
     #[test]

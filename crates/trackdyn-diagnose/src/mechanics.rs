@@ -130,7 +130,7 @@ pub fn is_instrument(vehicle: &Vehicle, effect: &ActiveEffect) -> bool {
 }
 
 /// Whether an effect's forces depend on acceleration.
-pub fn feels_inertia(vehicle: &Vehicle, effect: &ActiveEffect) -> bool {
+fn feels_inertia(vehicle: &Vehicle, effect: &ActiveEffect) -> bool {
     Transient::feels_inertia(&single(vehicle, effect))
 }
 

@@ -143,37 +143,38 @@ impl Search {
         stack.equations(|columns| self.evidence.normal(residual, columns))
     }
 
+    /// What these catalogue entries add to a fit, in forms of any deviation: what was missing may
+    /// have passed for other forms.
+    fn added<'a>(&self, beside: &'a Found, entries: &[usize]) -> Added<'a> {
+        let equations = self.equations(beside, entries);
+        let first = beside.fit.unknowns.len();
+        let deviations = &self.settings().prior.form_deviations;
+        let alternatives = beside.forms.alternatives(equations, first, deviations);
+        let without = alternatives.iter().map(|equations| equations.fit_with(&[])).collect();
+        Added { beside: &beside.fit.hypothesis, alternatives, without }
+    }
+
     /// Screens all candidates beside a fit: the best variant of each effect, best first.
     pub fn screen(&self, beside: &Found) -> Vec<Screened> {
         let entries: Vec<usize> = (0..self.catalogue.entries.len())
             .filter(|&entry| !beside.effects.contains(&self.catalogue.entries[entry].0.effect))
             .collect();
-        let equations = self.equations(beside, &entries);
-        let without = equations.fit_with(&[]);
+        let added = self.added(beside, &entries);
         let mut best: Vec<Screened> = Vec::new();
         let all: Vec<Screened> = entries
             .par_iter()
-            .zip(&equations.groups)
-            .map(|(&entry, group)| {
-                let fit = equations.fit_with(group);
+            .enumerate()
+            .map(|(group, &entry)| {
                 let variant = &self.catalogue.entries[entry].0;
-                let Held { sizes, rise } =
-                    Held::of(&fit, equations.free.len(), &beside.fit.hypothesis, &[variant]);
-                let drop = (without.misfit - fit.misfit - rise).max(0.0);
-                // An effect that the robot never met has zero signatures.
-                let unseen =
-                    group.iter().all(|&column| equations.normal.product(column, column) == 0.0);
+                let Gain { ln_evidence, drop, sizes, held } = added.gain(&[group], &[variant]);
                 Screened {
                     entry,
                     effect: variant.effect,
-                    gain: if unseen {
-                        f64::NEG_INFINITY
-                    } else {
-                        fit.ln_evidence - rise / 2.0 - without.ln_evidence
-                    },
+                    // An effect that the robot never met has zero signatures.
+                    gain: if added.is_unseen(group) { f64::NEG_INFINITY } else { ln_evidence },
                     z: drop.sqrt(),
                     sizes: sizes.concat(),
-                    held: rise > 0.0,
+                    held,
                 }
             })
             .collect();
@@ -226,19 +227,14 @@ impl Search {
         let dozen: Vec<&Screened> =
             screened.iter().take(self.settings().search.max_paired).collect();
         let entries: Vec<usize> = dozen.iter().map(|one| one.entry).collect();
-        let equations = self.equations(beside, &entries);
-        let (groups, free) = (&equations.groups, equations.free.len());
-        let without = equations.fit_with(&[]);
+        let added = self.added(beside, &entries);
         let mut pairs = Vec::new();
         for a in 0..dozen.len() {
             for b in a + 1..dozen.len() {
-                let both: Vec<usize> = groups[a].iter().chain(&groups[b]).copied().collect();
-                let fit = equations.fit_with(&both);
                 let members = [dozen[a], dozen[b]];
                 let variants = members.map(|one| &self.catalogue.entries[one.entry].0);
-                let Held { sizes, rise } = Held::of(&fit, free, &beside.fit.hypothesis, &variants);
+                let Gain { ln_evidence: gain, sizes, .. } = added.gain(&[a, b], &variants);
                 // each carries the gain of both: alone, neither may show
-                let gain = fit.ln_evidence - rise / 2.0 - without.ln_evidence;
                 let with =
                     |k: usize| Screened { gain, sizes: sizes[k].clone(), ..members[k].clone() };
                 pairs.push((gain, [with(0), with(1)]));
@@ -491,6 +487,63 @@ impl Search {
         }
         Ok(best)
     }
+}
+
+/// What variants add to a hypothesis, in the linear approximation.
+struct Added<'a> {
+    beside: &'a Hypothesis,
+    /// The normal equations at each deviation of the forms, all equally probable. Each variant is a
+    /// group.
+    alternatives: Vec<Equations>,
+    /// Fits of the free columns alone.
+    without: Vec<Solution>,
+}
+
+/// What some variants add together.
+struct Gain {
+    /// Gain of ln evidence, each the mean over the forms.
+    ln_evidence: f64,
+    /// Decrease of the misfit, in the most probable forms with them.
+    drop: f64,
+    /// Estimated sizes of each, as distances from the present ones.
+    sizes: Vec<Vec<f64>>,
+    /// Whether some are held at the end of their range.
+    held: bool,
+}
+
+impl Added<'_> {
+    fn gain(&self, groups: &[usize], variants: &[&Variant]) -> Gain {
+        let fits: Vec<(f64, f64, Held)> = self
+            .alternatives
+            .iter()
+            .zip(&self.without)
+            .map(|(equations, without)| {
+                let groups = groups.iter().flat_map(|&group| &equations.groups[group]);
+                let fit = equations.fit_with(&groups.copied().collect::<Vec<_>>());
+                let held = Held::of(&fit, equations.free.len(), self.beside, variants);
+                let drop = (without.misfit - fit.misfit - held.rise).max(0.0);
+                (fit.ln_evidence - held.rise / 2.0, drop, held)
+            })
+            .collect();
+        let with = ln_sum(fits.iter().map(|(ln_evidence, ..)| *ln_evidence));
+        let without = ln_sum(self.without.iter().map(|fit| fit.ln_evidence));
+        let best = fits.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+        let (_, drop, Held { sizes, rise }) = best.expect("one of the forms");
+        Gain { ln_evidence: with - without, drop, sizes, held: rise > 0.0 }
+    }
+
+    /// Whether the columns of a group are zero.
+    fn is_unseen(&self, group: usize) -> bool {
+        let Equations { normal, groups, .. } = &self.alternatives[0];
+        groups[group].iter().all(|&column| normal.product(column, column) == 0.0)
+    }
+}
+
+/// ln Σ exp, of numbers only.
+fn ln_sum(ln: impl Iterator<Item = f64> + Clone) -> f64 {
+    let numbers = ln.filter(|ln| ln.is_finite());
+    let most = numbers.clone().fold(f64::MIN, f64::max);
+    most + numbers.map(|ln| (ln - most).exp()).sum::<f64>().ln()
 }
 
 /// Estimated sizes of variants, held within their physical ranges.

@@ -48,8 +48,9 @@ impl Subject {
         HEADINGS.map(|yaw| PATTERNS.map(|pattern| self.icrs(pattern, Pose::new(0.0, 0.0, yaw))))
     }
 
-    /// Largest change of an ICR from `bases` under the transformation of a symmetry, m.
-    fn change(&self, symmetry: Symmetry, bases: &[[[f64; 3]; 3]; 2]) -> f64 {
+    /// Largest change of an ICR from `bases` under the transformation of a symmetry, m; the first
+    /// beyond `enough`, where there is one.
+    fn change(&self, symmetry: Symmetry, bases: &[[[f64; 3]; 3]; 2], enough: f64) -> f64 {
         let mut worst = 0.0_f64;
         for (heading, at_heading) in HEADINGS.into_iter().zip(bases) {
             let at = Pose::new(0.0, 0.0, heading);
@@ -71,6 +72,9 @@ impl Subject {
                     Symmetry::Transient | Symmetry::Straight => unreachable!("not of turns"),
                 };
                 worst = worst.max(distance(at_heading[k], other));
+                if worst > enough {
+                    return worst;
+                }
             }
         }
         worst
@@ -119,7 +123,7 @@ fn the_base_case_breaks_nothing() {
     let subject = Subject::new(Vec::new());
     let bases = subject.bases();
     for symmetry in &Symmetry::ALL[..7] {
-        let change = subject.change(*symmetry, &bases);
+        let change = subject.change(*symmetry, &bases, INTACT);
         println!("{}: {:.2} mm", symmetry.letter(), 1e3 * change);
         assert!(change < INTACT, "{}: {change} m", symmetry.letter());
     }
@@ -140,7 +144,8 @@ fn subjects() -> Vec<(&'static Sheet, Form)> {
 #[test]
 fn every_mechanism_breaks_what_its_sheet_says_in_all_forms() {
     println!(
-        "worst change of an ICR, mm; way off the line in 1 m, mm; belt's way lost at a start, mm"
+        "first change of an ICR that breaks, or the largest, mm; way off the line in 1 m, mm; \
+         belt's way lost at a start, mm"
     );
     println!("{:26}{}", "", Symmetry::ALL.map(|i| format!("{:>8}", i.letter())).concat());
     let subjects = subjects();
@@ -153,7 +158,7 @@ fn every_mechanism_breaks_what_its_sheet_says_in_all_forms() {
             Symmetry::ALL.map(|symmetry| match symmetry {
                 Symmetry::Straight => subject.strays(),
                 Symmetry::Transient => subject.lags(),
-                _ => subject.change(symmetry, &bases),
+                _ => subject.change(symmetry, &bases, BROKEN),
             })
         })
         .collect();

@@ -7,7 +7,7 @@ use super::joint::Joint;
 use super::quantity::{Estimate, Gradients, Group, Number, Quantity, Subject};
 use crate::base::OFFSETS;
 use crate::diagnosis::Examination;
-use crate::equations::Column;
+use crate::equations::{Column, at_right_angles};
 use crate::fit::Fit;
 use crate::hypothesis::Unknown;
 use crate::normal::{Normal, Prior};
@@ -169,6 +169,12 @@ fn taken(groups: &[Group]) -> Vec<Unknown> {
     taken
 }
 
+/// Sizes of effects among what is compared.
+fn effects(groups: &[Group]) -> impl Iterator<Item = &Quantity> {
+    let is_effect = |group: &&Group| matches!(group.subject, Subject::Effect(_));
+    groups.iter().filter(is_effect).flat_map(|group| &group.numbers)
+}
+
 /// Both sets with all groups in common; differences are columns to be added.
 pub(super) fn joint<'a>(
     sets: [&'a Examination; 2],
@@ -188,9 +194,13 @@ pub(super) fn joint<'a>(
                 joint.free_in(k, &in_icrs.column(k, place), prior);
             }
         }
+        // another size must not pass for another form
+        let sizes: Vec<Column> =
+            effects(groups).filter_map(|of| in_icrs.of(k, of.number)).collect();
         let forms = &choice.fits[k].forms;
         for (column, prior) in forms.columns.iter().zip(&forms.priors) {
-            joint.free_in(k, column, *prior);
+            let form = sizes.iter().fold(column.clone(), at_right_angles);
+            joint.free_in(k, &form, *prior);
         }
     }
     for quantity in groups.iter().flat_map(|group| &group.numbers) {

@@ -129,8 +129,14 @@ pub fn examine(
     let limits = || (Limits::of(&judged), judged.exposures());
     let (limits, exposures) = watch.stage(Stage::Limits, limits)?;
 
-    let corrected =
-        corrected(file, &judged.best, judged.friction_level, &judged.missing, proposed.as_ref());
+    let corrected = corrected(
+        file,
+        &judged.best,
+        judged.friction_level,
+        &judged.missing,
+        proposed.as_ref(),
+        judged.search.settings().verdict.min_icr_difference,
+    );
 
     // Drift: errors of dead reckoning, in units of driving.
     let judging = tested.unseen.as_ref().map_or(&judged.search.evidence, |unseen| &unseen.evidence);

@@ -1,8 +1,9 @@
 //! Columns of all that driving could explain in a residual, and the noise lost to fitting them.
 
+use crate::candidate::sizes;
 use crate::evidence::Evidence;
 use crate::fit::{Fit, derivatives};
-use crate::hypothesis::Unknown;
+use crate::hypothesis::{Hypothesis, Unknown, at_share};
 use crate::locate::{contrasts, icr_columns};
 use crate::mechanics::{Instruments, Mechanics};
 use crate::normal::{Columns, Normal};
@@ -11,6 +12,8 @@ use nalgebra::Vector3;
 use trackdyn_core::real;
 use trackdyn_estimate::likely_noise::Variances;
 use trackdyn_estimate::weighting::SegmentNoise;
+use trackdyn_model::EffectId;
+use trackdyn_model::effect::{Card, Stage};
 
 /// Residual of a fit, and all columns that driving could explain; not whitened.
 pub(super) struct Flexible {
@@ -38,11 +41,38 @@ fn turning(evidence: &Evidence, of: &[Vec<Vector3<f64>>]) -> Vec<Vec<Vector3<f64
 
 /// Change of the motion with the friction level, free or not: how fast it responds to acceleration.
 fn answer_to_acceleration(evidence: &Evidence, fit: &Fit) -> Vec<Vec<Vector3<f64>>> {
-    let Fit { hypothesis, mechanics, .. } = fit;
-    let level = [Unknown::FrictionLevel];
-    let mechanics = Mechanics::beside(Some(mechanics), hypothesis, &level, evidence);
+    changes(evidence, fit, &fit.hypothesis, &[Unknown::FrictionLevel])
+}
+
+/// Changes of the motion with where masses are, free or not: their place and the sizes of all
+/// effects by which acceleration acts. The vehicle file may have them wrong. None without inertia.
+fn masses(evidence: &Evidence, fit: &Fit) -> Vec<Vec<Vector3<f64>>> {
+    let Fit { hypothesis, .. } = fit;
+    if !hypothesis.effects.iter().any(|effect| effect.card().is_inertia()) {
+        return Vec::new();
+    }
+    let acts = |card: &Card| card.is_inertia() || card.stages.contains(&Stage::Load);
+    let effects: Vec<EffectId> = EffectId::all().filter(|effect| acts(effect.card())).collect();
+    let lacking = effects.iter().filter(|effect| hypothesis.effect(**effect).is_none());
+    let none = |whole: Hypothesis, &effect| whole.with_effect(at_share(effect, 0.0));
+    let whole = lacking.fold(hypothesis.clone(), none);
+    let places = [0, 1].map(Unknown::Cog);
+    let sizes =
+        |&effect: &EffectId| sizes(effect).into_iter().map(move |k| Unknown::Effect(effect, k));
+    let unknowns: Vec<Unknown> = places.into_iter().chain(effects.iter().flat_map(sizes)).collect();
+    changes(evidence, fit, &whole, &unknowns)
+}
+
+/// Changes of the motion with these numbers of a hypothesis like that of the fit.
+fn changes(
+    evidence: &Evidence,
+    fit: &Fit,
+    hypothesis: &Hypothesis,
+    unknowns: &[Unknown],
+) -> Vec<Vec<Vector3<f64>>> {
+    let mechanics = Mechanics::beside(Some(&fit.mechanics), hypothesis, unknowns, evidence);
     let prediction = mechanics.predict(&Instruments::of(hypothesis), evidence);
-    derivatives(hypothesis, &mechanics, &prediction, &level, evidence)
+    derivatives(hypothesis, &mechanics, &prediction, unknowns, evidence)
 }
 
 /// Whitened by the noise alone, without the residual scale.
@@ -70,6 +100,7 @@ impl Flexible {
         let answer = answer_to_acceleration(evidence, fit);
         columns.extend(turning(evidence, &answer));
         columns.extend(answer);
+        columns.extend(masses(evidence, fit));
         let samples = evidence.samples().iter().zip(&prediction);
         let residual = samples.map(|(sample, motion)| sample.motion - motion).collect();
         Self { residual, columns, own: unknowns.len() }

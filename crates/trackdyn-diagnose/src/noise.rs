@@ -7,8 +7,9 @@
 //! acceleration; and, with inertia, where the masses are. The remaining residual r is noise
 //! ([`SegmentNoise`]): white noise R of each pose, shared by neighbouring segments, errors of its
 //! stamp, which displace it along the motion, a random walk q within each segment, and a wandering
-//! heading of the sensor that turns all later segments of a run. [`likely_noise`](trackdyn_estimate::likely_noise) finds its variances,
-//! corrected for the degrees of freedom of the fit, ½ ln det(Xᵀ V⁻¹ X), X the fitted columns:
+//! heading of the sensor that turns all later segments of a run.
+//! [`likely_noise`](trackdyn_estimate::likely_noise) finds its variances, corrected for the degrees
+//! of freedom of the fit, ½ ln det(Xᵀ V⁻¹ X), X the fitted columns:
 //! without that a walk, which is slow, would vanish into slow contrasts. The correction is taken as
 //! linear in the log variances.
 //!

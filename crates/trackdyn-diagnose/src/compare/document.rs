@@ -36,9 +36,9 @@ pub struct ComparisonFile {
     /// Smallest difference of each size that would have shown.
     #[serde(default)]
     pub smallest: BTreeMap<String, BTreeMap<String, f64>>,
-    /// What the simulator's recordings are.
+    /// What the simulator's recordings are, and how they were taken.
     pub sim: Table,
-    /// What the robot's recordings are.
+    /// What the robot's recordings are, and how they were taken.
     pub real: Table,
 }
 
@@ -155,8 +155,13 @@ impl ComparisonFile {
                 of.insert(card.parameters[one.parameter].key.to_owned(), rounded(size));
             }
         }
-        let table = |source: &Source| Table::try_from(source).expect("a source is a table");
-        let [sim, real] = [sim, real].map(table);
+        let table = |source: &Source, set: usize| {
+            let mut table = Table::try_from(source).expect("a source is a table");
+            let seen = &comparison.diagnoses[set].evidence.seen;
+            table.insert("evidence".to_owned(), seen.description().into());
+            table
+        };
+        let [sim, real] = [table(sim, 0), table(real, 1)];
         let [first, corrected, second] = comparison.closer.errors.map(rounded);
         let instruments = comparison.instruments.iter().flat_map(|group| &group.numbers);
         let not_shown = comparison.not_shown.iter();

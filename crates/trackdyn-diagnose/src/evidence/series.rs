@@ -83,12 +83,13 @@ impl Evidence {
             begin,
             has_world,
             origin: Origin::Drive(noise),
-            gyroscope,
             description: format!(
-                "{}; noise measured on what driving cannot explain{}",
+                "{}{}; noise measured on what driving cannot explain{}",
                 blocks.description(),
+                if matches!(gyroscope, Some(Ok(_))) { "; yaw by the gyroscope" } else { "" },
                 if has_world { "" } else { NO_WORLD }
             ),
+            gyroscope,
             settings: Arc::new(settings.clone()),
         })
     }

@@ -211,6 +211,16 @@ fn friction_that_falls_with_slip_speed_is_named() {
 }
 
 #[test]
+fn lugs_that_grip_better_one_way_are_named() {
+    is_named("directional-lugs");
+}
+
+#[test]
+fn a_drag_behind_the_robot_is_named() {
+    is_named("hitch-drag");
+}
+
+#[test]
 fn resistance_of_one_side_is_named() {
     is_named("resistance-split");
 }

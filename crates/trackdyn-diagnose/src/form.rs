@@ -26,7 +26,7 @@ use crate::evidence::{Evidence, Sample};
 use crate::fit::Fit;
 use crate::hypothesis::{Unknown, beyond_none, typical};
 use crate::mechanics::is_instrument;
-use crate::normal::Prior;
+use crate::normal::{Prior, ln_mean};
 use crate::prior::priors;
 use crate::weighted::Weighted;
 use nalgebra::Vector3;
@@ -74,9 +74,7 @@ impl Forms {
             if gain.is_finite() { gain } else { f64::NEG_INFINITY }
         };
         let gains: Vec<f64> = deviations.iter().map(gain_at).collect();
-        let most = gains.iter().copied().fold(0.0, f64::max);
-        let sum: f64 = gains.iter().chain([&0.0]).map(|gain| (gain - most).exp()).sum();
-        let gain = most + (sum / real(gains.len() + 1)).ln();
+        let gain = ln_mean(gains.iter().copied().chain([0.0]));
         let best = gains.iter().zip(deviations).max_by(|a, b| a.0.total_cmp(b.0));
         match best.filter(|(gain, _)| **gain > 0.0) {
             Some((_, &deviation)) => {
@@ -100,29 +98,38 @@ impl Forms {
         Self { columns, priors: scaled(&shares, deviation), shares, deviation, gain: 0.0 }
     }
 
-    /// The equations at each of these τ and without forms, which all are equally probable. Their
-    /// forms are at `first` and after; only the equations themselves where laws are exact.
+    /// What is free in equations at each of these τ and without forms, which all are equally
+    /// probable. Their forms are at `first` and after; as the equations say where laws are exact.
     pub fn alternatives(
         &self,
-        equations: Equations,
+        equations: &Equations,
         first: usize,
         deviations: &[f64],
-    ) -> Vec<Equations> {
+    ) -> Vec<Alternative> {
+        let Equations { free, priors, .. } = equations;
         let own = first..first + self.shares.len();
+        let as_it_is = Alternative { free: free.clone(), priors: priors.clone() };
         if own.is_empty() {
-            return vec![equations];
+            return vec![as_it_is];
         }
         let at = |&deviation: &f64| {
-            let mut there = equations.clone();
+            let mut there = as_it_is.clone();
             there.priors.splice(own.clone(), scaled(&self.shares, deviation));
             there
         };
-        let mut all: Vec<Equations> = deviations.iter().map(at).collect();
-        let mut exact = equations;
-        exact.free.retain(|column| !own.contains(column));
-        all.push(exact);
-        all
+        let exact = free.iter().copied().filter(|column| !own.contains(column)).collect();
+        let exact = Alternative { free: exact, priors: priors.clone() };
+        deviations.iter().map(at).chain([exact]).collect()
     }
+}
+
+/// What is free in equations at one deviation of the forms.
+#[derive(Clone, Debug)]
+pub struct Alternative {
+    /// The free columns.
+    pub free: Vec<usize>,
+    /// Prior of the factor of each column of the equations.
+    pub priors: Vec<Prior>,
 }
 
 /// Standard deviation of the factor of a column.

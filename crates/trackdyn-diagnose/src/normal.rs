@@ -10,6 +10,7 @@ pub use scaled::Scaled;
 use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
 use std::ops::Range;
+use trackdyn_core::real;
 
 /// Residual and columns of a linear fit, whitened, three rows per sample.
 pub struct Columns<'a> {
@@ -99,6 +100,14 @@ pub fn effective(squares: impl Iterator<Item = f64>) -> f64 {
     let (sum, of_squares) =
         squares.fold((0.0, 0.0), |(sum, squares), one| (sum + one, squares + one * one));
     if of_squares > 0.0 { sum * sum / of_squares } else { 0.0 }
+}
+
+/// ln of the mean of probabilities that are given by their ln; what is no number has none.
+pub fn ln_mean(ln: impl Iterator<Item = f64> + Clone) -> f64 {
+    let numbers = ln.clone().filter(|ln| ln.is_finite());
+    let most = numbers.clone().fold(f64::MIN, f64::max);
+    let sum: f64 = numbers.map(|ln| (ln - most).exp()).sum();
+    most + (sum / real(ln.count())).ln()
 }
 
 /// Ridge on the scaled diagonal: columns that differ by less, relative to their square, count as

@@ -13,9 +13,9 @@ use crate::base::{Base, Calibration, with_vehicle};
 use crate::candidate::{Beside, Catalogue, Signature, Variant};
 use crate::equations::{Equations, Stack};
 use crate::fit::{Fit, Point};
-use crate::form::Forms;
+use crate::form::{Alternative, Forms};
 use crate::hypothesis::{Hypothesis, Unknown, active, beyond_none, unknowns_of};
-use crate::normal::{Prior, Solution};
+use crate::normal::{Prior, Solution, ln_mean};
 use crate::prior::{prior, priors};
 use crate::progress::{Cancelled, Watch};
 use crate::settings::Settings;
@@ -149,9 +149,10 @@ impl Search {
         let equations = self.equations(beside, entries);
         let first = beside.fit.unknowns.len();
         let deviations = &self.settings().prior.form_deviations;
-        let alternatives = beside.forms.alternatives(equations, first, deviations);
-        let without = alternatives.iter().map(|equations| equations.fit_with(&[])).collect();
-        Added { beside: &beside.fit.hypothesis, alternatives, without }
+        let forms = beside.forms.alternatives(&equations, first, deviations).into_iter();
+        let without = |one: Alternative| (equations.normal.fit(&one.free, &one.priors), one);
+        let forms = forms.map(without).collect();
+        Added { beside: &beside.fit.hypothesis, equations, forms }
     }
 
     /// Screens all candidates beside a fit: the best variant of each effect, best first.
@@ -492,11 +493,10 @@ impl Search {
 /// What variants add to a hypothesis, in the linear approximation.
 struct Added<'a> {
     beside: &'a Hypothesis,
-    /// The normal equations at each deviation of the forms, all equally probable. Each variant is a
-    /// group.
-    alternatives: Vec<Equations>,
-    /// Fits of the free columns alone.
-    without: Vec<Solution>,
+    /// The normal equations. Each variant is a group.
+    equations: Equations,
+    /// What is free at each deviation of the forms, all equally probable, with its fit.
+    forms: Vec<(Solution, Alternative)>,
 }
 
 /// What some variants add together.
@@ -513,20 +513,17 @@ struct Gain {
 
 impl Added<'_> {
     fn gain(&self, groups: &[usize], variants: &[&Variant]) -> Gain {
-        let fits: Vec<(f64, f64, Held)> = self
-            .alternatives
-            .iter()
-            .zip(&self.without)
-            .map(|(equations, without)| {
-                let groups = groups.iter().flat_map(|&group| &equations.groups[group]);
-                let fit = equations.fit_with(&groups.copied().collect::<Vec<_>>());
-                let held = Held::of(&fit, equations.free.len(), self.beside, variants);
-                let drop = (without.misfit - fit.misfit - held.rise).max(0.0);
-                (fit.ln_evidence - held.rise / 2.0, drop, held)
-            })
-            .collect();
-        let with = ln_sum(fits.iter().map(|(ln_evidence, ..)| *ln_evidence));
-        let without = ln_sum(self.without.iter().map(|fit| fit.ln_evidence));
+        let Equations { normal, groups: columns, .. } = &self.equations;
+        let added: Vec<usize> = groups.iter().flat_map(|&group| &columns[group]).copied().collect();
+        let fits = self.forms.iter().map(|(without, Alternative { free, priors })| {
+            let fit = normal.fit(&[free, &added[..]].concat(), priors);
+            let held = Held::of(&fit, free.len(), self.beside, variants);
+            let drop = (without.misfit - fit.misfit - held.rise).max(0.0);
+            (fit.ln_evidence - held.rise / 2.0, drop, held)
+        });
+        let fits: Vec<(f64, f64, Held)> = fits.collect();
+        let with = ln_mean(fits.iter().map(|(ln_evidence, ..)| *ln_evidence));
+        let without = ln_mean(self.forms.iter().map(|(fit, _)| fit.ln_evidence));
         let best = fits.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
         let (_, drop, Held { sizes, rise }) = best.expect("one of the forms");
         Gain { ln_evidence: with - without, drop, sizes, held: rise > 0.0 }
@@ -534,16 +531,9 @@ impl Added<'_> {
 
     /// Whether the columns of a group are zero.
     fn is_unseen(&self, group: usize) -> bool {
-        let Equations { normal, groups, .. } = &self.alternatives[0];
+        let Equations { normal, groups, .. } = &self.equations;
         groups[group].iter().all(|&column| normal.product(column, column) == 0.0)
     }
-}
-
-/// ln Σ exp, of numbers only.
-fn ln_sum(ln: impl Iterator<Item = f64> + Clone) -> f64 {
-    let numbers = ln.filter(|ln| ln.is_finite());
-    let most = numbers.clone().fold(f64::MIN, f64::max);
-    most + numbers.map(|ln| (ln - most).exp()).sum::<f64>().ln()
 }
 
 /// Estimated sizes of variants, held within their physical ranges.

@@ -221,7 +221,7 @@ mod tests {
         let mut residual: Vec<Vector3<f64>> =
             (0..count).map(|_| Vector3::new(normal(), 0.0, 0.0)).collect();
         for (column, size) in [(0, sizes[0]), (2, sizes[1])] {
-            let length = columns[column].iter().map(Vector3::norm_squared).sum::<f64>().sqrt();
+            let length = crate::equations::square(&columns[column]).sqrt();
             for (value, by) in residual.iter_mut().zip(&columns[column]) {
                 *value += by * (size / length);
             }

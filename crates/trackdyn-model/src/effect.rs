@@ -100,6 +100,11 @@ impl Card {
         self.stages.contains(&Stage::Shear)
     }
 
+    /// Whether it moves where the load presses.
+    pub fn moves_load(&self) -> bool {
+        self.stages.contains(&Stage::Load)
+    }
+
     /// Whether it acts around a place in the world, over an extent that is its shape parameter.
     pub fn has_extent(&self) -> bool {
         let is_place = |one: &Parameter| matches!(one.role, Role::Place { .. });

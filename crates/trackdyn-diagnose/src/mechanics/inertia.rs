@@ -13,7 +13,7 @@ use crate::settings;
 use crate::surface::Surface;
 use std::sync::Arc;
 use trackdyn_core::Twist;
-use trackdyn_model::effect::{Card, Stage};
+use trackdyn_model::effect::Card;
 use trackdyn_model::{ActiveEffect, Drive};
 
 /// Largest distances to the simulated parameters over which a departure is extrapolated, in typical
@@ -169,5 +169,5 @@ impl InertiaNear {
 /// effects, to one that moves the load as the robot accelerates, or to the vehicle.
 fn needs_slope(by: Unknown, effects: &[ActiveEffect]) -> bool {
     let is_one = |card: &Card| effects.iter().any(|effect| effect.card().id == card.id);
-    by.card().is_none_or(|card| is_one(card) || card.stages.contains(&Stage::Load))
+    by.card().is_none_or(|card| is_one(card) || card.moves_load())
 }

@@ -13,7 +13,7 @@ use trackdyn_core::real;
 use trackdyn_estimate::likely_noise::Variances;
 use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_model::EffectId;
-use trackdyn_model::effect::{Card, Stage};
+use trackdyn_model::effect::Card;
 
 /// Residual of a fit, and all columns that driving could explain; not whitened.
 pub(super) struct Flexible {
@@ -51,7 +51,7 @@ fn masses(evidence: &Evidence, fit: &Fit) -> Vec<Vec<Vector3<f64>>> {
     if !hypothesis.effects.iter().any(|effect| effect.card().is_inertia()) {
         return Vec::new();
     }
-    let acts = |card: &Card| card.is_inertia() || card.stages.contains(&Stage::Load);
+    let acts = |card: &Card| card.is_inertia() || card.moves_load();
     let effects: Vec<EffectId> = EffectId::all().filter(|effect| acts(effect.card())).collect();
     let lacking = effects.iter().filter(|effect| hypothesis.effect(**effect).is_none());
     let none = |whole: Hypothesis, &effect| whole.with_effect(at_share(effect, 0.0));

@@ -256,10 +256,10 @@ impl Search {
         let added: Vec<EffectId> = more.iter().map(|one| one.effect).collect();
         let (effects, unknowns) = beside.extended(&added);
         let evidence = &self.evidence;
-        let start = |share: f64| {
-            let hypothesis = self.with(beside, more, share);
+        let at = |hypothesis: Hypothesis| {
             Point::new(hypothesis, &unknowns, evidence, Some(&beside.fit.mechanics))
         };
+        let start = |share: f64| at(self.with(beside, more, share));
         let fitted = |start: Point| {
             let fit = Fit::from_point(start, &unknowns, evidence);
             self.recalibrated(effects.clone(), fit)
@@ -277,7 +277,7 @@ impl Search {
             if !is_worse(&found) {
                 return found;
             }
-            let none = fitted(start(0.0));
+            let none = fitted(at(self.at_no_size(beside, more)));
             if none.fit.objective < found.fit.objective { none } else { found }
         };
         let kept = |found: &Found| found.ln_evidence - beside.ln_evidence;
@@ -316,6 +316,18 @@ impl Search {
             hypothesis = hypothesis.with_effect(active(one.effect, &values));
         }
         hypothesis
+    }
+
+    /// The hypothesis with more effects at no size, their other numbers as expected: it is as good
+    /// as the hypothesis without them.
+    fn at_no_size(&self, beside: &Found, more: &[Screened]) -> Hypothesis {
+        let hypothesis = &beside.fit.hypothesis;
+        let added = more.iter().filter(|one| hypothesis.effect(one.effect).is_none());
+        let added = added.flat_map(|one| unknowns_of(one.effect));
+        added.fold(self.with(beside, more, 0.0), |all, unknown| {
+            let expected = all.get(unknown) + prior(&all, unknown, &self.evidence).mean;
+            all.with(unknown, expected)
+        })
     }
 
     /// Refits after constant ICR offsets were converted to the vehicle's own numbers: friction and

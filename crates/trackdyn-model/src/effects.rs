@@ -20,6 +20,7 @@ use trackdyn_core::{PerSide, Scalar, Wrench};
 
 catalogue! {
     friction_anisotropy::FrictionAnisotropy,
+    friction_cone::FrictionCone,
     cog_shift::CogShift,
     friction_split::FrictionSplit,
     friction_gradient::FrictionGradient,

@@ -17,6 +17,7 @@ pub fn sheet_of(id: &str) -> Option<&'static Sheet> {
 
 mechanisms! {
     friction_anisotropy::FrictionAnisotropy,
+    friction_cone::FrictionCone,
     cog_shift::CogShift,
     friction_split::FrictionSplit,
     friction_gradient::FrictionGradient,

@@ -23,6 +23,7 @@
 //! ed., chapter 5 and section 14.1.
 
 use crate::Error;
+use crate::thinned::with_poses_every;
 use trackdyn_core::real;
 use trackdyn_recording::Recording;
 
@@ -33,6 +34,10 @@ mod regression;
 use intervals::Intervals;
 use moments::{Estimate, Moments};
 use regression::Fit;
+
+/// Poses that come more often are averaged, s: between two of them a robot hardly turns, and noise
+/// hides it.
+const MIN_POSE_INTERVAL: f64 = 0.05;
 
 /// Where to look for the clock offset.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -290,7 +295,7 @@ fn farthest(intervals: &Intervals, search: &ClockSearch) -> Option<Peak> {
 /// offset at an end of the search, [`Error::Swapped`] with left and right swapped.
 pub fn clock_offset(recording: &Recording, search: &ClockSearch) -> Result<ClockOffset, Error> {
     let refuse = |reason: String| Error::NotEstimable { what: "the clock offset", reason };
-    let intervals = Intervals::new(recording);
+    let intervals = Intervals::new(&with_poses_every(recording, MIN_POSE_INTERVAL));
     let Peak { tau: coarse, fit, is_at_end } = highest(&intervals, search).map_err(|most| {
         refuse(format!("{most} pose intervals with readings, {MIN_INTERVALS} needed"))
     })?;

@@ -4,7 +4,7 @@
 
 use trackdyn_core::robust::usual_interval;
 use trackdyn_recording::TrackSample;
-use trackdyn_recording::recording::MIN_GAP_RATIO;
+use trackdyn_recording::recording::longest_interval;
 
 /// The gaps between the readings of a run.
 #[derive(Clone, Debug, Default)]
@@ -14,10 +14,10 @@ pub struct Gaps {
 }
 
 impl Gaps {
-    /// Intervals of more than [`MIN_GAP_RATIO`] medians.
+    /// Intervals that are longer than usual ([`longest_interval`]).
     pub fn of(tracks: &[TrackSample]) -> Self {
         Self::longer_than(
-            MIN_GAP_RATIO * usual_interval(tracks.iter().map(|sample| sample.t)),
+            longest_interval(usual_interval(tracks.iter().map(|sample| sample.t))),
             tracks,
         )
     }

@@ -10,7 +10,7 @@ use std::ops::Range;
 use trackdyn_core::robust::usual_interval;
 use trackdyn_core::{Pose, real};
 use trackdyn_recording::hold::{holding, readings};
-use trackdyn_recording::recording::MIN_GAP_RATIO;
+use trackdyn_recording::recording::longest_interval;
 use trackdyn_recording::{Recording, Run};
 
 /// How to cut a recording.
@@ -108,7 +108,7 @@ impl<'a> Cut<'a> {
         let pose_interval = usual_interval(run.poses().iter().map(|sample| sample.t));
         let track_interval = usual_interval(run.tracks().iter().map(|sample| sample.t));
         let longest_track =
-            options.longest_track_interval.unwrap_or(MIN_GAP_RATIO * track_interval);
+            options.longest_track_interval.unwrap_or(longest_interval(track_interval));
         let wanted = options.minimum_duration.max(real(options.minimum_readings) * track_interval);
         Self {
             index,
@@ -116,7 +116,7 @@ impl<'a> Cut<'a> {
             options,
             longest_pose_interval: options
                 .longest_pose_interval
-                .unwrap_or(MIN_GAP_RATIO * pose_interval),
+                .unwrap_or(longest_interval(pose_interval)),
             pose_intervals: intervals_in(wanted, pose_interval),
             gaps: Gaps::longer_than(longest_track, run.tracks()),
         }

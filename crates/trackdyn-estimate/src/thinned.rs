@@ -15,7 +15,7 @@ use std::borrow::Cow;
 use trackdyn_core::pose::wrap_angle;
 use trackdyn_core::robust::usual_interval;
 use trackdyn_core::{Pose, real};
-use trackdyn_recording::recording::MIN_GAP_RATIO;
+use trackdyn_recording::recording::longest_interval;
 use trackdyn_recording::{PoseSample, Recording, Run, TrackSample, UncheckedRun};
 
 /// Part of an interval that is rounding.
@@ -101,7 +101,7 @@ fn together(readings: &[TrackSample], usual: f64, count: usize) -> Vec<TrackSamp
 /// The means of so many poses in a row, each with the index of its first pose; `usual` is their
 /// interval, s.
 fn averaged(poses: &[PoseSample], usual: f64, count: usize) -> Vec<(usize, PoseSample)> {
-    let is_gap = |pair: &[PoseSample]| pair[1].t - pair[0].t > MIN_GAP_RATIO * usual;
+    let is_gap = |pair: &[PoseSample]| pair[1].t - pair[0].t > longest_interval(usual);
     let mut rows = Vec::new();
     let mut first = 0;
     while let Some(row) = poses.get(first..first + count) {

@@ -27,8 +27,8 @@ mod stuck;
 mod warning;
 mod wide_spikes;
 
-pub use cleaning::MIN_GAP_RATIO;
 pub(crate) use cleaning::clean;
+pub use cleaning::{MIN_GAP_RATIO, longest_interval};
 pub use finding::{Cleaning, Finding};
 pub use kept::Kept;
 pub(crate) use run::turn_sensor;

@@ -49,6 +49,17 @@ fn the_offset_is_recovered_within_its_error() {
     assert!((0.5..1.6).contains(&mean_square), "{mean_square}");
 }
 
+/// Between two poses of a motion capture the robot turns less than its yaw is off.
+#[test]
+fn quick_poses_with_coarse_yaw_show_the_offset() {
+    let tau = -0.08;
+    let synthetic = Synthetic { pose_interval: 1.0 / 170.0, yaw_noise: 0.011, ..noisy(tau, 3) };
+    let recording = synthetic.recording().expect("long enough");
+    let found = clock_offset(&recording, &ClockSearch::default()).expect("turning");
+    let off = (found.tau - tau).abs();
+    assert!(found.standard_error < 0.01 && off < 4.0 * found.standard_error, "{found:?}");
+}
+
 #[test]
 fn without_noise_the_offset_is_exact() {
     for tau in [-0.31, 0.0, 0.275, 0.7] {

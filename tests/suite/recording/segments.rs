@@ -45,6 +45,21 @@ fn without(
     Recording::new("n", "r", runs.collect(), Source::computed(), Vec::new()).expect("long enough")
 }
 
+/// Frames that a motion capture of 200 Hz misses now and then are no gaps.
+#[test]
+fn a_few_missed_frames_lose_no_driving() {
+    let synthetic = Synthetic { pose_interval: 0.005, ..Synthetic::default() };
+    let whole = synthetic.recording().expect("long enough");
+    let driven = |recording: &Recording| -> f64 {
+        cut(recording, &SegmentOptions::default()).iter().map(Segment::duration).sum()
+    };
+    let missed = driven(&without(&whole, |_| false, |t| t % 1.0 < 0.08));
+    assert!(missed > 0.98 * driven(&whole), "{missed} of {}", driven(&whole));
+    // Nobody knows what happens in a quarter of a second.
+    let gaps = driven(&without(&whole, |_| false, |t| t % 1.0 < 0.25));
+    assert!(gaps < 0.8 * driven(&whole), "{gaps} of {}", driven(&whole));
+}
+
 /// Stamps and steps coincide, so that the held readings are the true speeds: 1e-9 is rounding.
 #[test]
 fn observed_motion_is_the_integral_of_the_readings_at_the_right_clock_offset() {

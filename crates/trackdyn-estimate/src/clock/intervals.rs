@@ -4,7 +4,7 @@ use super::regression::{Fit, Sums};
 use crate::gaps::Gaps;
 use trackdyn_core::robust::{median, usual_interval};
 use trackdyn_recording::hold::holding;
-use trackdyn_recording::recording::MIN_GAP_RATIO;
+use trackdyn_recording::recording::longest_interval;
 use trackdyn_recording::{Recording, Run, TrackSample};
 
 /// The pose intervals of all runs.
@@ -73,7 +73,7 @@ impl Intervals {
 impl RunIntervals {
     fn new(run: &Run) -> Self {
         let poses = run.poses();
-        let longest = MIN_GAP_RATIO * usual_interval(poses.iter().map(|sample| sample.t));
+        let longest = longest_interval(usual_interval(poses.iter().map(|sample| sample.t)));
         let turns = poses.windows(2).filter(|pair| pair[1].t - pair[0].t <= longest);
         let turns = turns
             .map(|pair| Turn {

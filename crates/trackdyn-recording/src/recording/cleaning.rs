@@ -9,6 +9,15 @@ use trackdyn_core::robust::median;
 /// Intervals of more than this many medians are gaps: nobody knows what happened within.
 pub const MIN_GAP_RATIO: f64 = 5.0;
 
+/// Intervals up to this are no gaps, s: a robot hardly changes its motion in it. A motion capture of
+/// 200 Hz that misses ten frames has missed nothing.
+const MIN_GAP: f64 = 0.1;
+
+/// The longest interval that is no gap, s, of samples that usually come at an interval, s.
+pub fn longest_interval(usual: f64) -> f64 {
+    (MIN_GAP_RATIO * usual).max(MIN_GAP)
+}
+
 /// Smallest interval, in medians, of two separate measurements.
 const MIN_INTERVAL_RATIO: f64 = 0.1;
 
@@ -88,7 +97,7 @@ fn intervals<S: Sample>(samples: &[S], mut report: impl FnMut(Finding, usize, f6
         report(finding(longest), count, first);
     };
     of(&|length| length < MIN_INTERVAL_RATIO * usual, &|_| Finding::Crowded);
-    of(&|length| length > MIN_GAP_RATIO * usual, &|longest| Finding::Gap { longest });
+    of(&|length| length > longest_interval(usual), &|longest| Finding::Gap { longest });
 }
 
 /// Adds whole turns so that yaw never jumps by more than half a turn.

@@ -163,3 +163,22 @@ fn what_slow_driving_shows_forecasts_fast_driving() {
     assert!(!physics.is_empty());
     assert!(diagnosis.evidence.errors.after < diagnosis.evidence.errors.before);
 }
+
+/// A vehicle file for asphalt, on ice: an independent model of four wheels finds a friction of
+/// 0.098 and a radius of gyration of 0.54 m, and no delay. The windows were cut out of slides, and
+/// the speeds of the wheels are held for 0.25 s.
+#[test]
+fn ice_is_inertia_and_little_friction_and_no_clock() {
+    let Some(real) = Real::new("warthog-ice-6s", "warthog") else { return };
+    let found = &real.diagnosis;
+    let said = said(found);
+    assert!(said.contains(&BTreeSet::from(["yaw-inertia"])), "{said:?}");
+    assert!(said.contains(&BTreeSet::from(["centripetal"])), "{said:?}");
+    let late = ["time-offset", "drivetrain-lag"];
+    assert!(!said.iter().flatten().any(|one| late.contains(one)), "{said:?}");
+    let file = vehicle(real.vehicle).vehicle.friction.along;
+    let [friction, ..] = found.friction_by_inertia().expect("another friction").map(|by| by * file);
+    assert!((0.08..0.13).contains(&friction), "{friction}");
+    let errors = found.evidence.errors;
+    assert!(errors.after < 0.6 * errors.before, "{errors:?}");
+}

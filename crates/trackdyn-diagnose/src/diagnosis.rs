@@ -1,5 +1,6 @@
 //! Result of a diagnosis: the answer, its evidence, the models and the detection limits.
 
+mod begun;
 mod evidence;
 mod judged;
 mod limits;

@@ -3,6 +3,7 @@
 //! A sample is a motion over a time in which the track speeds are known. A steady operating point
 //! is a sample of a microsecond, whose motion is velocity times time: one prediction serves both.
 
+mod held;
 pub mod planned;
 mod points;
 mod series;
@@ -12,7 +13,7 @@ use crate::settings::Settings;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
-use trackdyn_core::{PerSide, Pose};
+use trackdyn_core::{PerSide, Pose, Twist};
 use trackdyn_estimate::gyroscope::{Gyroscope, Unfit};
 use trackdyn_estimate::regular::regularise;
 use trackdyn_estimate::weighting::SegmentNoise;
@@ -85,6 +86,9 @@ pub struct Evidence {
     /// Whether places and headings are those of one world.
     has_world: bool,
     origin: Origin,
+    /// Departure of the twist (paper's frame) from the stationary one with which each run begins;
+    /// none where all begin in stationary motion.
+    starts: Option<Arc<[Twist]>>,
     /// What the gyroscope tells of the yaw of the poses; none where it was not asked.
     gyroscope: Option<Result<Gyroscope, Unfit>>,
     description: String,
@@ -159,6 +163,17 @@ impl Evidence {
         &self.settings
     }
 
+    /// Departure of the twist (paper's frame) from the stationary one with which each run begins;
+    /// none where all begin in stationary motion.
+    pub fn starts(&self) -> Option<&Arc<[Twist]>> {
+        self.starts.as_ref()
+    }
+
+    /// The evidence with runs that begin in a motion of their own.
+    pub fn with_starts(&self, starts: impl Into<Arc<[Twist]>>) -> Self {
+        Self { starts: Some(starts.into()), ..self.clone() }
+    }
+
     /// The largest track speed, m/s.
     pub fn fastest(&self) -> f64 {
         let speeds = self.tracks.iter().flatten();
@@ -172,6 +187,11 @@ impl Evidence {
             regularise(run, |reading| &mut reading.t);
         }
         Self { tracks, ..self.clone() }
+    }
+
+    /// The evidence with lines between the updates of encoder speeds that are held.
+    pub fn with_held_readings_joined(&self) -> Self {
+        Self { tracks: held::joined(&self.tracks, &self.settings.evidence), ..self.clone() }
     }
 
     /// Quantisation step of the encoder speeds, m/s.

@@ -6,6 +6,7 @@ use crate::form::Forms;
 use crate::locate::{Residual, excess, icr_columns};
 use crate::noise::without_outliers;
 use crate::resampling::Resampling;
+use crate::starts::with_own_starts;
 use crate::weighted::Weighted;
 use nalgebra::Vector3;
 use trackdyn_core::real;
@@ -96,6 +97,9 @@ pub(crate) fn judged(
     resampling: Resampling,
 ) -> (HeldOut, Unseen) {
     let unseen = seen.weigh(unseen);
+    // Where runs begin in a motion of their own, so do these.
+    let own = seen.starts().and_then(|_| with_own_starts(&unseen, &best.hypothesis));
+    let unseen = own.unwrap_or(unseen);
     let there = best.on(&unseen);
     let unseen = unseen.moving_as(&there.prediction(&unseen));
     let evidence = without_outliers(&unseen, &there);

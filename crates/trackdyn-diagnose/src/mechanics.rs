@@ -354,6 +354,32 @@ impl Mechanics {
     }
 }
 
+impl Mechanics {
+    /// Derivative of the motion of each sample, as reported by the pose sensor, by each axis of the
+    /// twist (paper's frame) with which its run begins; none without inertia, or where its
+    /// simulation fails.
+    pub fn by_starts(
+        &self,
+        instruments: &Instruments,
+        evidence: &Evidence,
+    ) -> Option<[Vec<Vector3<f64>>; 3]> {
+        /// Step of a twist, m/s and rad/s: the motion over a sample is nearly linear in it.
+        const STEP: f64 = 1e-4;
+        let Instruments { sensor, offset, .. } = instruments;
+        let samples = evidence.samples();
+        let changes = self.in_time.inertia()?.changes_by_starts(samples, sensor.delay).ok()?;
+        let turned = Sensor { yaw_rate_bias: 0.0, ..*sensor }.reporting();
+        let moved = |(sample, change): (&Sample, &Twist)| {
+            let [forward, left, yaw] = sample.motion.into();
+            let before = Pose::new(forward, left, yaw);
+            let change = ros_twist_from_paper(&turned(&seen_from(change, offset))) * STEP;
+            let after = Pose::exp(&(before.log(sample.duration) + change), sample.duration);
+            Vector3::new(after.x - forward, after.y - left, after.yaw - yaw) / STEP
+        };
+        Some(changes.each_ref().map(|changes| samples.iter().zip(changes).map(moved).collect()))
+    }
+}
+
 /// Reason if more than the share `most` of the speeds has no stationary motion; none otherwise.
 fn unbalanced(surface: &Surface, most: f64) -> Option<String> {
     let share = surface.unsolved();

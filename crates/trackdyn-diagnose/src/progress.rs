@@ -10,6 +10,8 @@ pub enum Stage {
     Noise,
     /// Cleaning of the readings.
     Readings,
+    /// Motion with which runs begin.
+    Beginnings,
     /// Signatures of all candidates.
     Signatures,
     /// Search for the best hypothesis.
@@ -30,9 +32,10 @@ pub enum Stage {
 
 impl Stage {
     /// All stages of a diagnosis, in order.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Noise,
         Self::Readings,
+        Self::Beginnings,
         Self::Signatures,
         Self::Search,
         Self::Verdicts,
@@ -47,6 +50,7 @@ impl Stage {
         match self {
             Self::Noise => "noise",
             Self::Readings => "readings",
+            Self::Beginnings => "beginnings",
             Self::Signatures => "signatures",
             Self::Search => "search",
             Self::Verdicts => "verdicts",

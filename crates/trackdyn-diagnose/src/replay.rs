@@ -6,18 +6,45 @@ use crate::mechanics::{Instruments, Mechanics};
 use nalgebra::Vector3;
 use std::ops::Range;
 use trackdyn_core::Pose;
-use trackdyn_model::VehicleFile;
+use trackdyn_model::{Sensor, VehicleFile};
 
-/// The motion of every sample with a vehicle file, moved by the recording's clock where the file
-/// says nothing of it, seen from its beginning.
+/// The motion of every sample with a vehicle file, seen from its beginning. Where the file says
+/// nothing of the clock, poses come late by what suits its turning best: the recording's own offset
+/// holds the time by which inertia answers, too.
 pub fn motions(evidence: &Evidence, file: &VehicleFile) -> Vec<Pose> {
     let hypothesis = Hypothesis::filed(file, &evidence.settings().prior);
-    let mut instruments = Instruments::of(&hypothesis);
-    if instruments.sensor.delay == 0.0 {
-        instruments.sensor.delay = evidence.tau();
-    }
-    let motions = Mechanics::new(&hypothesis, evidence).predict(&instruments, evidence);
+    let instruments = Instruments::of(&hypothesis);
+    let mechanics = Mechanics::new(&hypothesis, evidence);
+    let moved = |delay: f64| {
+        let sensor = Sensor { delay, ..instruments.sensor };
+        mechanics.predict(&Instruments { sensor, ..instruments }, evidence)
+    };
+    let motions = if instruments.sensor.delay == 0.0 {
+        let all = delays(evidence).map(moved);
+        let all = all.map(|motions| (turned_apart(evidence, &motions), motions));
+        all.min_by(|a, b| a.0.total_cmp(&b.0)).map_or_else(Vec::new, |best| best.1)
+    } else {
+        moved(instruments.sensor.delay)
+    };
     motions.iter().map(pose).collect()
+}
+
+/// Delays of poses that are tried, s: those that the readings of all samples cover, around the
+/// recording's own offset.
+fn delays(evidence: &Evidence) -> impl Iterator<Item = f64> {
+    /// Step, s: between readings at 100 Hz.
+    const STEP: f64 = 0.01;
+    let (own, margin) = (evidence.tau(), evidence.settings().evidence.clock_margin);
+    let [first, last] = [own.min(0.0) - margin, own.max(0.0) + margin];
+    let [back, on] = [first, last].map(|end| ((end - own) / STEP).trunc());
+    let steps = std::iter::successors(Some(back), |step| Some(step + 1.0));
+    steps.take_while(move |step| *step <= on).map(move |step| own + step * STEP)
+}
+
+/// Sum of the errors of yaw, rad.
+fn turned_apart(evidence: &Evidence, motions: &[Vector3<f64>]) -> f64 {
+    let samples = evidence.samples().iter().zip(motions);
+    samples.map(|(sample, motion)| (sample.motion[2] - motion[2]).abs()).sum()
 }
 
 /// A motion as a pose, seen from its beginning.

@@ -1,9 +1,12 @@
 //! Evidence with the noise model that whitens its residuals.
 
+mod starts;
+
 use crate::equations::Column;
 use crate::evidence::{Evidence, Origin, Sample};
 use crate::normal::{Columns, Normal, Prior};
 use nalgebra::{Matrix3, Vector3};
+use starts::Starts;
 use std::ops::Deref;
 use std::sync::Arc;
 use trackdyn_core::robust::deviation_about_zero;
@@ -33,7 +36,7 @@ impl Deref for Weighted {
 #[derive(Clone)]
 enum Whitening {
     /// Segments of a drive: neighbours share a noisy pose, so their errors correlate.
-    Segments(Segments, Arc<Whitener>),
+    Segments(Segments, Arc<Whitener>, Option<Arc<Starts>>),
     /// Independent points: inverse standard deviation of each channel; zero where not measured.
     Points(Arc<[Vector3<f64>]>),
 }
@@ -50,6 +53,9 @@ struct Segments {
     /// Which have no weight and share no pose with their neighbours.
     lost: Arc<[bool]>,
     twists: Twists,
+    /// Change of each sample by each axis of the twist with which its run begins, times the prior
+    /// deviation of that axis; none where all runs begin in stationary motion.
+    by_starts: Option<Arc<[Column; 3]>>,
 }
 
 impl Segments {
@@ -70,7 +76,27 @@ impl Segments {
     fn whitening(self, samples: &[Sample]) -> Whitening {
         let weighting = Weighting::Noise(self.noise);
         let whitener = Arc::new(Whitener::of_motions(&weighting, self.motions(samples)));
-        Whitening::Segments(self, whitener)
+        let starts = self.by_starts.as_ref().map(|columns| {
+            let white = columns.each_ref().map(|column| {
+                let mut column = column.clone();
+                self.by_noise(&whitener, &mut column);
+                column
+            });
+            Arc::new(Starts::new(samples, &white))
+        });
+        Whitening::Segments(self, whitener, starts)
+    }
+
+    /// Whitens a column by the noise alone, in place: lost samples tell nothing.
+    fn by_noise(&self, whitener: &Whitener, column: &mut [Vector3<f64>]) {
+        let lose = |column: &mut [Vector3<f64>]| {
+            for (value, _) in column.iter_mut().zip(&*self.lost).filter(|(_, lost)| **lost) {
+                *value = Vector3::zeros();
+            }
+        };
+        lose(column);
+        whitener.whiten(column);
+        lose(column);
     }
 }
 
@@ -86,7 +112,7 @@ impl Weighted {
                 let observed: Vec<_> = samples.iter().map(|sample| sample.motion).collect();
                 let twists = twists(&evidence, &observed);
                 let lost = none_lost(samples);
-                Segments { noise: *noise, lost, twists }.whitening(samples)
+                Segments { noise: *noise, lost, twists, by_starts: None }.whitening(samples)
             }
             Origin::SteadyPoints(inverse) => Whitening::Points(Arc::clone(inverse)),
         };
@@ -96,7 +122,7 @@ impl Weighted {
     /// Noise of the segments of a recording; none for a table.
     pub fn noise(&self) -> Option<&SegmentNoise> {
         match &self.whitening {
-            Whitening::Segments(segments, _) => Some(&segments.noise),
+            Whitening::Segments(segments, ..) => Some(&segments.noise),
             Whitening::Points(_) => None,
         }
     }
@@ -104,7 +130,7 @@ impl Weighted {
     /// What the noise of each sample of a drive depends on; none for a table.
     pub fn motions(&self) -> Vec<Seen> {
         match &self.whitening {
-            Whitening::Segments(segments, _) => segments.motions(self.samples()).collect(),
+            Whitening::Segments(segments, ..) => segments.motions(self.samples()).collect(),
             Whitening::Points(_) => Vec::new(),
         }
     }
@@ -118,6 +144,22 @@ impl Weighted {
     /// each sample; a table stays as it is.
     pub fn moving_as(&self, prediction: &[Vector3<f64>]) -> Self {
         self.with_segments(|segments| segments.twists = twists(self, prediction))
+    }
+
+    /// The evidence in which each run begins with a twist of its own, which departs from the
+    /// stationary one by `starts` (paper's frame), give or take its prior deviation. `by_starts` is
+    /// the change of each sample by each axis of that twist, times the deviation.
+    pub fn with_starts(&self, starts: Vec<Twist>, by_starts: [Column; 3]) -> Self {
+        self.with_readings(|evidence| evidence.with_starts(starts))
+            .with_segments(|segments| segments.by_starts = Some(Arc::new(by_starts)))
+    }
+
+    /// ln of the density that unknown beginnings of the runs cost; zero where they are known.
+    pub fn ln_determinant_of_starts(&self) -> f64 {
+        match &self.whitening {
+            Whitening::Segments(.., Some(starts)) => starts.ln_determinant(),
+            Whitening::Segments(.., None) | Whitening::Points(_) => 0.0,
+        }
     }
 
     /// The evidence with another noise and all segments, lost ones restored; a table stays as it
@@ -142,7 +184,7 @@ impl Weighted {
 
     /// The evidence after a change of what its whitening depends on; a table stays as it is.
     fn with_segments(&self, change: impl FnOnce(&mut Segments)) -> Self {
-        let Whitening::Segments(segments, _) = &self.whitening else { return self.clone() };
+        let Whitening::Segments(segments, ..) = &self.whitening else { return self.clone() };
         let mut segments = segments.clone();
         change(&mut segments);
         Self { whitening: segments.whitening(self.samples()), ..self.clone() }
@@ -175,13 +217,10 @@ impl Weighted {
     /// Whitens a column of residuals or derivatives in place: unit variance, no correlation.
     pub fn whiten(&self, column: &mut [Vector3<f64>]) {
         match &self.whitening {
-            Whitening::Segments(Segments { lost, .. }, whitener) => {
-                for (value, _) in column.iter_mut().zip(lost.iter()).filter(|(_, lost)| **lost) {
-                    *value = Vector3::zeros();
-                }
-                whitener.whiten(column);
-                for (value, _) in column.iter_mut().zip(lost.iter()).filter(|(_, lost)| **lost) {
-                    *value = Vector3::zeros();
+            Whitening::Segments(segments, whitener, starts) => {
+                segments.by_noise(whitener, column);
+                if let Some(starts) = starts {
+                    starts.whiten(column);
                 }
             }
             Whitening::Points(inverse) => {
@@ -265,7 +304,12 @@ impl Weighted {
     /// Colours a white column in place: the inverse of [`Weighted::whiten`].
     pub fn colour(&self, column: &mut [Vector3<f64>]) {
         match &self.whitening {
-            Whitening::Segments(_, whitener) => whitener.colour(column),
+            Whitening::Segments(_, whitener, starts) => {
+                if let Some(starts) = starts {
+                    starts.colour(column);
+                }
+                whitener.colour(column);
+            }
             Whitening::Points(inverse) => {
                 for (value, inverse) in column.iter_mut().zip(inverse.iter()) {
                     value.component_div_assign(&inverse.map(|i| if i > 0.0 { i } else { 1.0 }));
@@ -277,7 +321,7 @@ impl Weighted {
     /// Log determinant of the whitening of each sample, given those before it; none for a table.
     pub fn ln_determinants(&self) -> Vec<f64> {
         match &self.whitening {
-            Whitening::Segments(_, whitener) => whitener.ln_determinants().collect(),
+            Whitening::Segments(_, whitener, _) => whitener.ln_determinants().collect(),
             Whitening::Points(_) => Vec::new(),
         }
     }
@@ -292,7 +336,7 @@ impl Weighted {
     /// Whether a channel of a sample was measured.
     pub fn is_measured(&self, sample: usize, channel: usize) -> bool {
         match &self.whitening {
-            Whitening::Segments(segments, _) => !segments.lost[sample],
+            Whitening::Segments(segments, ..) => !segments.lost[sample],
             Whitening::Points(inverse) => inverse[sample][channel] > 0.0,
         }
     }

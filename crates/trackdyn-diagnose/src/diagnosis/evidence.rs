@@ -78,8 +78,8 @@ pub(super) struct Cleaned {
 }
 
 impl Cleaned {
-    /// Removes late stamps, then encoder ticks: a fit would mistake either noise for a drive lag. A
-    /// cleaning is kept unless the fit becomes worse.
+    /// Removes late stamps, then held speeds, then encoder ticks: a fit would mistake each for a
+    /// drive lag. A cleaning is kept unless the fit becomes worse.
     ///
     /// # Errors
     /// [`Cancelled`], by the observer of the watch.
@@ -92,7 +92,8 @@ impl Cleaned {
         let steps = seen.steps();
         let as_read = Self { seen, unseen };
         let even = as_read.unless_worse(base, Evidence::with_regular_stamps, watch)?;
-        even.unless_worse(base, |evidence| evidence.with_speeds_between_ticks(steps), watch)
+        let joined = even.unless_worse(base, Evidence::with_held_readings_joined, watch)?;
+        joined.unless_worse(base, |evidence| evidence.with_speeds_between_ticks(steps), watch)
     }
 
     /// Evidence with cleaned readings and its re-estimated noise, unless the base fits worse.

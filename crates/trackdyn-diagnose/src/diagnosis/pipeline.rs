@@ -1,5 +1,6 @@
 //! The diagnosis: all stages in order.
 
+use super::begun::begun;
 use super::evidence::{Cleaned, InNoise, Split};
 use super::judged::Judged;
 use super::located::Located;
@@ -22,9 +23,9 @@ use trackdyn_model::{ActiveEffect, EffectId, VehicleFile};
 /// Stages in one round of search and verdicts.
 const ROUND: usize = searched::STAGES_SHARPENED + 1;
 
-/// Stages of the longest course: noise, readings, two rounds, location, held-out runs, proposal and
-/// limits.
-pub const STAGES: usize = 2 + 2 * ROUND + 4;
+/// Stages of the longest course: noise, readings, beginnings, two rounds, location, held-out runs,
+/// proposal and limits.
+pub const STAGES: usize = 3 + 2 * ROUND + 4;
 
 /// A diagnosis with the search that it rests on, for further questions to the same evidence.
 pub struct Examination {
@@ -81,6 +82,10 @@ pub fn examine(
     // Cleaned: late stamps and encoder ticks are removed from the readings.
     let Cleaned { seen, unseen } =
         watch.try_stage(Stage::Readings, || Cleaned::of(seen, unseen, &base, watch))?;
+
+    // Begun: runs that were cut out of a slide begin in a motion of their own.
+    let own = watch.try_stage(Stage::Beginnings, || begun(&seen, &base.refitted(&seen), watch))?;
+    let seen = own.unwrap_or(seen);
 
     // Signatures and search, repeated with smaller noise where the best hypothesis shows that the
     // noise was overestimated. Then the verdicts.

@@ -50,6 +50,7 @@ impl Evidence {
             begin: 0.0,
             has_world: true,
             origin: Origin::Drive(noise),
+            starts: None,
             gyroscope: None,
             description: format!("{blocks} planned manoeuvres"),
             settings: Arc::new(settings.clone()),

@@ -72,6 +72,7 @@ impl Evidence {
             begin: 0.0,
             has_world: false,
             origin: Origin::SteadyPoints(inverse.into()),
+            starts: None,
             gyroscope: None,
             description: format!(
                 "{} steady points in {blocks} blocks of neighbours in the table; scatter against \

@@ -89,6 +89,7 @@ impl Evidence {
                 if matches!(gyroscope, Some(Ok(_))) { "; yaw by the gyroscope" } else { "" },
                 if has_world { "" } else { NO_WORLD }
             ),
+            starts: None,
             gyroscope,
             settings: Arc::new(settings.clone()),
         })

@@ -103,8 +103,8 @@ impl InertiaNear {
     /// farther away than `within` allows.
     pub fn moved(&self, inert: &[ActiveEffect], case: &Case, within: Within) -> Option<Self> {
         let late = self.at.lag_change(case.drive);
-        if !are_same(&self.at.inert, inert) || !self.at.is_close(case.vehicle) || late > within.late
-        {
+        let is_near = are_same(&self.at.inert, inert) && self.at.is_close(case.vehicle);
+        if !is_near || !self.at.begins_as(case) || late > within.late {
             return None;
         }
         let settings = case.settings();
@@ -149,6 +149,23 @@ impl InertiaNear {
             Some(&self.at.surface),
         );
         self.at.sheared(laws, [with, &without])
+    }
+
+    /// Change of the twist (paper's frame) during each sample by each axis of the twist with which
+    /// its run begins, at a pose delay, s.
+    ///
+    /// # Errors
+    /// The simulation fails.
+    pub fn changes_by_starts(
+        &self,
+        samples: &[Sample],
+        delay: f64,
+    ) -> Result<[Vec<Twist>; 3], String> {
+        let changes = self.at.changes_by_starts()?;
+        let of = |twists: &Vec<Vec<Twist>>| {
+            samples.iter().map(|sample| self.at.mean_over(sample, delay, twists)).collect()
+        };
+        Ok(changes.each_ref().map(of))
     }
 
     /// Whether both come from one transient simulation.

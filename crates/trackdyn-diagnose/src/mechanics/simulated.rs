@@ -99,6 +99,9 @@ pub struct Inertia {
     model: Model,
     /// From its encoder speeds to its belt speeds.
     drive: Drive,
+    /// Departure of the twist from the stationary one with which each run begins; none where all
+    /// begin in stationary motion.
+    starts: Option<Arc<[Twist]>>,
     /// Transient motion of each run, by the encoder clock.
     paths: Vec<Trajectory>,
     /// Its coarse steps, computed on demand.
@@ -132,13 +135,16 @@ impl Inertia {
             .iter()
             .map(|run| smoothed(run).iter().map(gained).collect())
             .collect();
-        let (paths, steps) = fine(model, &surface, &belts, &settings)?.into_iter().unzip();
+        let starts = evidence.starts().cloned();
+        let runs = fine(model, &surface, (&belts, starts.as_deref()), &settings)?;
+        let (paths, steps) = runs.into_iter().unzip();
         let steady = belts.iter().map(|run| stationary(&surface, run)).collect();
         let simulated = Self {
             inert,
             vehicle: case.vehicle.clone(),
             model: model.clone(),
             drive: *drive,
+            starts,
             paths,
             steps: OnceLock::new(),
             belts,
@@ -154,7 +160,8 @@ impl Inertia {
 
     /// The steps of each run, simulated again.
     pub fn steps_again(&self) -> Result<Vec<Vec<Step>>, String> {
-        let runs = fine(&self.model, &self.surface, &self.belts, &self.settings)?;
+        let runs = (&self.belts[..], self.starts.as_deref());
+        let runs = fine(&self.model, &self.surface, runs, &self.settings)?;
         Ok(runs.into_iter().map(|(_, steps)| steps).collect())
     }
 
@@ -165,6 +172,12 @@ impl Inertia {
             && self.vehicle == **vehicle
             && self.model.effects() == model.effects()
             && self.drive == **drive
+            && self.begins_as(case)
+    }
+
+    /// Whether the runs begin in the motion of this case.
+    pub fn begins_as(&self, case: &Case) -> bool {
+        self.starts.as_ref() == case.evidence.starts()
     }
 
     /// Additional belt lag of this drive, s, mean of both sides: slow changes are delayed by the
@@ -239,7 +252,7 @@ impl Inertia {
         let without = Forces { model: &self.model, ground: &grounds[1], creep };
         // Sequential: a job of the thread pool taken up in between would wait for this one.
         let steps =
-            self.steps.get_or_init(|| self.belts.iter().map(|run| self.steps(run)).collect());
+            self.steps.get_or_init(|| (0..self.belts.len()).map(|run| self.steps(run)).collect());
         let left = self.left.get_or_init(|| {
             let runs = self.belts.iter().zip(&self.steady);
             let sum = |(belts, twist): (&TrackSample, &Twist)| {
@@ -287,6 +300,25 @@ impl Inertia {
         (0..others.len()).map(of_other).collect()
     }
 
+    /// Change of the departure by each axis of the twist with which its run begins, to first order:
+    /// a mean twist for each reading of each run.
+    ///
+    /// # Errors
+    /// The simulation fails.
+    pub fn changes_by_starts(&self) -> Result<[Vec<Vec<Twist>>; 3], String> {
+        let alike = [0; 3].map(|_| self.model.clone());
+        let axes = [0, 1, 2].map(|axis| Twist::from_array(Vector3::ith(axis, 1.0).into()));
+        let creep = self.settings.stick_speed;
+        let steps = self.steps_again()?;
+        let runs = self.belts.par_iter().zip(&steps).map(|(belts, steps)| {
+            let still = vec![Twist::zero(); belts.len()];
+            let changes = tangents(&self.model, steps, &alike, &axes, creep);
+            changes.iter().map(|changes| held(belts, steps, changes, &still)).collect()
+        });
+        let runs: Vec<Vec<Vec<Twist>>> = runs.collect();
+        Ok([0, 1, 2].map(|axis| runs.iter().map(|run| run[axis].clone()).collect()))
+    }
+
     /// Mean over a sample of twists that hold with the readings of its run.
     pub fn mean_over(&self, sample: &Sample, delay: f64, twists: &[Vec<Twist>]) -> Twist {
         let until = sample.start + sample.duration;
@@ -298,9 +330,11 @@ impl Inertia {
     }
 
     /// Steps of the transient motion over a run: coarse ones, or fine ones where the former fail.
-    fn steps(&self, run: &[TrackSample]) -> Vec<Step> {
+    fn steps(&self, run: usize) -> Vec<Step> {
         let creep = self.settings.stick_speed;
-        let path = |steps| path_in_time(&self.model, &self.surface, run, steps, creep);
+        let start = start(self.starts.as_deref(), run);
+        let belts = &self.belts[run];
+        let path = |steps| path_in_time(&self.model, &self.surface, (belts, start), steps, creep);
         let steps = [Steps::coarse(&self.settings), Steps::fine(&self.settings)];
         let found = steps.into_iter().map(path).find_map(Result::ok);
         found.map(|(_, steps)| steps).unwrap_or_default()
@@ -370,30 +404,38 @@ fn stationary(surface: &Surface, belts: &[TrackSample]) -> Vec<Twist> {
     belts.iter().map(|reading| surface.motion(reading.speeds()).twist(&[0.0; 3])).collect()
 }
 
-/// Transient motion over each run, and its steps.
+/// Departure of the twist from the stationary one with which a run begins.
+fn start(starts: Option<&[Twist]>, run: usize) -> Twist {
+    starts.map_or(Twist::zero(), |starts| starts[run])
+}
+
+/// Transient motion over each run, by its belt speeds and its start, and its steps.
 fn fine(
     model: &Model,
     surface: &Surface,
-    belts: &[Vec<TrackSample>],
+    (belts, starts): (&[Vec<TrackSample>], Option<&[Twist]>),
     settings: &settings::Mechanics,
 ) -> Result<Vec<(Trajectory, Vec<Step>)>, String> {
     let steps = Steps::fine(settings);
-    let path =
-        |run: &Vec<TrackSample>| path_in_time(model, surface, run, steps, settings.stick_speed);
-    belts.par_iter().map(path).collect()
+    let path = |(run, belts): (usize, &Vec<TrackSample>)| {
+        let run = (&belts[..], start(starts, run));
+        path_in_time(model, surface, run, steps, settings.stick_speed)
+    };
+    belts.par_iter().enumerate().map(path).collect()
 }
 
-/// Transient motion over a run, and its steps. A track sticks below a slip of `creep`, m/s.
+/// Transient motion over a run, which begins with a departure from the stationary twist, and its
+/// steps. A track sticks below a slip of `creep`, m/s.
 fn path_in_time(
     model: &Model,
     surface: &Surface,
-    belts: &[TrackSample],
+    (belts, departing): (&[TrackSample], Twist),
     steps: Steps,
     creep: f64,
 ) -> Result<(Trajectory, Vec<Step>), String> {
     let mut path = Trajectory::default();
     let Some(first) = belts.first() else { return Ok((path, Vec::new())) };
-    let start = surface.motion(first.speeds()).twist(&[0.0; 3]);
+    let start = surface.motion(first.speeds()).twist(&[0.0; 3]) + departing;
     let mut robot = Transient::at_rest(model, first.t, Pose::default())
         .with_step(steps.longest)
         .with_tolerance(steps.tolerance, steps.shortest)

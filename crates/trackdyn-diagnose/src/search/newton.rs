@@ -17,7 +17,7 @@ impl Search {
     ///
     /// # Errors
     /// [`Cancelled`], by the observer of the watch.
-    pub(super) fn newton(&self, beside: &Found, watch: &Watch) -> Result<Option<Found>, Cancelled> {
+    pub(crate) fn newton(&self, beside: &Found, watch: &Watch) -> Result<Option<Found>, Cancelled> {
         let hypothesis = &beside.fit.hypothesis;
         let is_lacking =
             |effect: &EffectId| effect.card().is_inertia() && hypothesis.effect(*effect).is_none();

@@ -41,10 +41,33 @@ group! {
         huber_threshold: f64 = 3.4, "sd", [0.5, 1e9],
             "1 % of normal ones are longer.",
             "Lower: power is lost; higher: outliers look like physics.";
+        /// Longest interval of updates between which a slow source holds its speeds.
+        max_held: f64 = 0.5, "s", [0.0, 10.0],
+            "Slower ones are commands.",
+            "Lower: staircases look like a lag; higher: commands are blurred.";
+        /// Changes of a held speed for each one that may come earlier than its interval.
+        held_changes_per_early_one: usize = 10, "", [1.0, 1e6],
+            "Late stamps bring a change early.",
+            "Lower: what changes at any time is joined.";
         /// Rise of twice the misfit up to which cleaned readings stand.
         max_rise_by_cleaning: f64 = 4.0, "", [0.0, 1e6],
             "Two standard deviations.",
             "Lower: jitter looks like a lag.";
+        /// Deviation of a run's first motion from the stationary one, of the fastest speed.
+        start_deviation: f64 = 0.5, "", [1e-3, 10.0],
+            "A log may be cut in any slide.",
+            "Lower: slides from before the log look like lags; higher: beginnings tell less.";
+        /// First speed of a track, of the fastest one, from which a run begins in motion.
+        min_start_speed: f64 = 0.05, "", [0.0, 1.0],
+            "Beyond the noise of encoders.",
+            "Higher: runs that are cut in a slide pass for stationary ones.";
+        /// Steps to the first motion of each run.
+        start_rounds: usize = 8, "", [1.0, 100.0],
+            "A step that does not help is halved.",
+            "Lower: far slides are not found.";
+        /// Fits of first motions and of the rest in turn.
+        start_repeats: usize = 3, "", [1.0, 100.0],
+            "Each depends on the other.";
         /// First and last power of √10 tried for smoothing ticks.
         smoothing_powers: [f64; 2] = [-4.0, 10.0], "", [-20.0, 20.0],
             "The last spans forty readings.";

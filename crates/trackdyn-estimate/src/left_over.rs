@@ -1,9 +1,9 @@
 //! How much of the motion constant ICRs leave unexplained.
 //!
-//! Medians over the segments that should move most by the fit: an outlier is no misfit, a wrong unit
-//! is. What the noise of the poses explains does not count. They are those that make up half of the
-//! motion: a robot that seldom turns shows its turning in few. They are chosen by the prediction:
-//! where the robot is slow, those with most observed motion are those with most noise.
+//! Medians over the segments that should move most by the fit: an outlier is no misfit, a wrong
+//! unit is. What the noise of the poses explains does not count. They are those that make up half
+//! of the motion: a robot that seldom turns shows its turning in few. They are chosen by the
+//! prediction: where the robot is slow, those with most observed motion are those with most noise.
 
 use crate::observations::{Observation, Observations};
 use crate::parameters::Parameters;

@@ -9,8 +9,8 @@ use trackdyn_core::robust::median;
 /// Intervals of more than this many medians are gaps: nobody knows what happened within.
 pub const MIN_GAP_RATIO: f64 = 5.0;
 
-/// Intervals up to this are no gaps, s: a robot hardly changes its motion in it. A motion capture of
-/// 200 Hz that misses ten frames has missed nothing.
+/// Intervals up to this are no gaps, s: a robot hardly changes its motion in it. A motion capture
+/// of 200 Hz that misses ten frames has missed nothing.
 const MIN_GAP: f64 = 0.1;
 
 /// The longest interval that is no gap, s, of samples that usually come at an interval, s.

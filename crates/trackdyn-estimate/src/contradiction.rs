@@ -134,10 +134,11 @@ pub enum Contradiction {
 }
 
 impl Contradiction {
-    /// What contradicts a fit of motions on a vehicle with this gauge, m.
+    /// What contradicts a fit of motions on a vehicle with this gauge, m; the genetic algorithm
+    /// counts where it ran.
     pub fn of_motions(
         fit: &Estimate,
-        genetic: &Estimate,
+        genetic: Option<&Estimate>,
         spin_test: Option<&SpinTest>,
         observations: &Observations,
         noise: Option<&SegmentNoise>,
@@ -177,7 +178,9 @@ impl Contradiction {
                 };
                 by_method("the spin test", of, MAX_OF_SPIN)
             }
-            None => by_method("the genetic algorithm", genetic.gap(), MAX_OF_GENETIC),
+            None => genetic.and_then(|genetic| {
+                by_method("the genetic algorithm", genetic.gap(), MAX_OF_GENETIC)
+            }),
         });
         if left.turning > MAX_TURNING_LEFT {
             found.push(Self::Turning { left: left.turning });

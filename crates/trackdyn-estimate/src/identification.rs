@@ -146,7 +146,7 @@ pub fn identify_unless_stopped(
         let contradictions = least_squares.as_ref().map_or(Vec::new(), |estimate| {
             let spin = spin_test.as_ref().ok();
             let noise = seen.weighting.noise();
-            let genetic = &genetic_estimate;
+            let genetic = Some(&genetic_estimate);
             let mut found =
                 Contradiction::of_motions(estimate, genetic, spin, observations, noise, gauge);
             found.extend(Contradiction::of_response(estimate, response.as_ref()));
@@ -194,6 +194,22 @@ pub fn identify_unless_stopped(
 /// Those of [`identify`], and of [`least_squares`].
 pub fn icrs_alone(recording: &Recording, options: &Options) -> Result<Estimate, Error> {
     Seen::of(recording, options)?.least_squares(Free::Icrs).0
+}
+
+/// What contradicts the ICRs by least squares, without the other methods: contradictions within the
+/// recording, whatever is done with it. How fast the poses follow is left to those who ask.
+///
+/// # Errors
+/// Those of [`icrs_alone`].
+pub fn contradictions(
+    recording: &Recording,
+    options: &Options,
+) -> Result<Vec<Contradiction>, Error> {
+    let seen = Seen::of(recording, options)?;
+    let (estimate, _) = seen.least_squares(Free::Icrs);
+    let (spin, noise) = (seen.spin_test.as_ref().ok(), seen.weighting.noise());
+    let (observations, gauge) = (&seen.observations, options.gauge);
+    Ok(Contradiction::of_motions(&estimate?, None, spin, observations, noise, gauge))
 }
 
 /// What a recording shows before anything is fitted to it.

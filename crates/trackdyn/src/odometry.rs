@@ -14,8 +14,8 @@ use crate::viewer::{self, Layers};
 use crate::{Change, Error, Figure, Gauge, Parameters, Part, Provenance, Recording};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use trackdyn_estimate::Clock;
 use trackdyn_estimate::odometry::{self, Comparison, ParameterSet, tum};
+use trackdyn_estimate::{Clock, Contradiction};
 use trackdyn_model::kinematics::Source;
 use trackdyn_model::{Kinematics, VehicleFile};
 use trackdyn_recording::RunList;
@@ -48,6 +48,8 @@ pub struct Odometry {
     pub comparison: Comparison,
     /// The clock offset, and where it comes from.
     pub clock: Clock,
+    /// What contradicts itself in all of the recording: no parameters are judged by such driving.
+    pub contradictions: Vec<Contradiction>,
     replayed: Vec<Replayed>,
     physics_stopped: Option<String>,
     recording: Recording,
@@ -119,6 +121,7 @@ fn replay(
     Ok(Odometry {
         comparison,
         clock,
+        contradictions: corrected.contradictions(gauge.clone(), settings.tau),
         replayed,
         physics_stopped,
         recording: corrected.into_owned(),

@@ -1,5 +1,6 @@
 //! What was seen of a robot.
 
+mod contradictions;
 mod gyroscope;
 mod kept;
 mod options;

@@ -10,7 +10,7 @@ use crate::gyroscope::say_gyroscopes;
 use crate::options::{MethodOptions, PartOptions, RecordingOptions, held_out, refuse_for_points};
 use crate::progress::Progress;
 use crate::provenance::provenance;
-use crate::stderr::say;
+use crate::stderr::{say, warn};
 use crate::stdout::show;
 use clap::Args;
 use std::path::PathBuf;
@@ -64,6 +64,9 @@ pub fn run(options: &Options) -> Outcome {
         laws: Vec::new(),
     };
     let prepared = Prepared::new(&recordings, &vehicle, &settings)?;
+    for contradiction in recordings.iter().flat_map(|one| one.contradictions(&vehicle, None)) {
+        warn(format_args!("{contradiction}"));
+    }
     say_gyroscopes(prepared.evidence().gyroscope());
     prepare_folder(&options.out)?;
     let diagnosis = Progress::over(|observer| prepared.run(observer))?;

@@ -3,7 +3,7 @@
 use super::{DrivingOptions, GaugeOptions};
 use crate::changes::say_doubtful;
 use crate::gyroscope::say_gyroscopes;
-use crate::stderr::note;
+use crate::stderr::{note, warn};
 use clap::{ArgGroup, Args};
 use std::error::Error;
 use std::path::PathBuf;
@@ -46,6 +46,9 @@ impl ReplayOptions {
         let found = odometry(&recording, &gauge, &parameters, &settings)?;
         if let Some(reason) = found.clock.reason() {
             note(format_args!("{reason}; the clock offset is taken as 0 (set it with --tau)"));
+        }
+        for contradiction in &found.contradictions {
+            warn(format_args!("{contradiction}"));
         }
         say_gyroscopes(found.recording().gyroscope());
         for fitted in found.fitted_to_it() {

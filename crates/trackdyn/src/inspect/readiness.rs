@@ -104,10 +104,17 @@ pub(super) fn of_motion(
 ) -> Vec<Readiness> {
     let gap = driving.separation.as_ref().ok().map(|found| found.gap.value);
     let identified = to_identify(recording, settings, gap, findings);
-    let [odometry, diagnose] = recording.expect_positions().map_or_else(
-        |_| {
-            let reason = "poses have a yaw alone: expected positions".to_owned();
-            [Verdict::No(reason.clone()), Verdict::No(reason)]
+    let is_computed =
+        |of: &Finding| matches!(of, Finding::Fit(Contradiction::WheelOdometry { .. }));
+    let usable = if findings.iter().any(is_computed) {
+        Err("these poses are wheel odometry: expected those of something else")
+    } else {
+        recording.expect_positions().map_err(|_| "poses have a yaw alone: expected positions")
+    };
+    let [odometry, diagnose] = usable.map_or_else(
+        |reason| {
+            let no = || Verdict::No(reason.to_owned());
+            [no(), no()]
         },
         |motion| {
             let gauge = gauge(settings, gap);

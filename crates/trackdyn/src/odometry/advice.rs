@@ -73,6 +73,9 @@ pub(super) fn of(odometry: &Odometry) -> Advice {
                       a vehicle";
         return undecided(reason.to_owned());
     }
+    if let Some(contradiction) = odometry.contradictions.first() {
+        return undecided(contradiction.to_string());
+    }
     let is_fitted = |one: &&Replayed| !odometry.is_held_out(one.parameters.source());
     let files = odometry.replayed.iter().filter(is_fitted).map(Replayed::name);
     let physics = odometry.is_physics_fitted_to_it().then_some(ParameterSet::PHYSICS);

@@ -1,0 +1,25 @@
+//! What contradicts itself within a recording.
+
+use super::Recording;
+use crate::Gauge;
+use trackdyn_estimate::Contradiction;
+use trackdyn_estimate::identification::{Options, contradictions};
+
+impl Recording {
+    /// What contradicts constant ICRs between the tracks of a vehicle, be it a `&Vehicle` or a
+    /// gauge, as [`identify`](crate::identify()) finds it: poses that are computed from the tracks,
+    /// or units that are mixed up. Empty where it has too little in it to tell, and of a table of
+    /// steady points. `tau` is the time by which poses lag behind the track speeds, s, where it is
+    /// known.
+    pub fn contradictions(
+        &self,
+        vehicle: impl Into<Gauge>,
+        tau: Option<f64>,
+    ) -> Vec<Contradiction> {
+        let Some(motion) = self.motion().filter(|motion| motion.has_positions()) else {
+            return Vec::new();
+        };
+        let options = Options { tau, ..Options::new(vehicle.into().metres()) };
+        contradictions(motion, &options).unwrap_or_default()
+    }
+}

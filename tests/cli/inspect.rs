@@ -157,6 +157,25 @@ fn what_looks_wrong_is_told() {
     assert!(!run.stdout.contains("trackdyn identify"), "{}", run.stdout);
 }
 
+/// One column for both sides.
+#[test]
+fn tracks_that_do_not_turn_as_the_poses_do_are_told() {
+    let place = Workplace::new();
+    let drive = recording(vec![random_steps(40, 2.0, 0.8, 1)]);
+    write(&place, "drive", &drive, |rows| {
+        for sample in &mut rows.tracks.samples {
+            sample.v_left = f64::midpoint(sample.v_left, sample.v_right);
+            sample.v_right = sample.v_left;
+        }
+    });
+    let run = place.run("inspect drive");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let text = run.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains("and the tracks say hardly any turning"), "{}", run.stdout);
+    assert!(!text.contains("turning both ways"), "{}", run.stdout);
+    assert!(text.contains("odometry no: the tracks do not turn"), "{}", run.stdout);
+}
+
 #[test]
 fn nonsense_is_refused_in_a_sentence() {
     let place = Workplace::new();

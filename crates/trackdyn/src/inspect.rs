@@ -184,6 +184,7 @@ impl Inspection {
         );
         let (taken, mut findings) = finding::of_warnings(recording.warnings());
         findings.extend(driving.clock.as_ref().err().cloned().map(Finding::Clock));
+        findings.extend(finding::of_turning(&driving));
         let readiness = readiness::of_motion(recording, &driving, settings, &mut findings);
         let is_part = settings.part != Part::default();
         let mut of = Self::new(recording.name(), Content::Motion(Box::new(driving)), settings);

@@ -17,6 +17,9 @@ const MAX_STRAIGHT: f64 = 0.1;
 /// on the spot.
 const MIN_SPIN: f64 = 0.5;
 
+/// Turn from which on the yaw of the poses counts as turning and not as noise, rad.
+const MIN_TURN: f64 = 0.5;
+
 /// Rows of a series.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rows {
@@ -72,6 +75,8 @@ pub struct Driving {
     pub turned: PerSide<f64>,
     /// Part of it on the spot, rad.
     pub spun: PerSide<f64>,
+    /// Turning of the poses, whatever the tracks do, rad.
+    pub turned_by_poses: f64,
     /// Time in which both tracks stand, s.
     pub standing: f64,
     /// Whether the noise of the poses can be measured, at rest or in steady driving.
@@ -111,6 +116,7 @@ impl Driving {
             straight: 0.0,
             turned: PerSide::default(),
             spun: PerSide::default(),
+            turned_by_poses: 0.0,
             standing: runs.iter().map(|run| standing(run.tracks(), fastest)).sum(),
             has_noise: noise.moving.is_some() || noise.standing.is_some(),
             separation: Separation::of_motions(&observations),
@@ -123,7 +129,13 @@ impl Driving {
 
     /// Adds up ways and turning over the segments.
     fn add_up(&mut self) {
+        let mut turning = 0.0_f64;
         for segment in self.observations.segments() {
+            turning += segment.motion[2];
+            if turning.abs() >= MIN_TURN {
+                self.turned_by_poses += turning.abs();
+                turning = 0.0;
+            }
             let PerSide { left, right } = self.observations.travelled(segment);
             let (way, more) = (f64::midpoint(left, right).abs(), right - left);
             let larger = left.abs().max(right.abs());

@@ -1,5 +1,7 @@
 //! What looks wrong with a recording.
 
+use super::Driving;
+use std::f64::consts::TAU;
 use std::fmt;
 use trackdyn_estimate::Contradiction;
 use trackdyn_recording::Warning;
@@ -19,6 +21,8 @@ pub enum Finding {
     Clock(trackdyn_estimate::Error),
     /// What contradicts the parameters that it leads to.
     Fit(Contradiction),
+    /// Poses that turn so far, rad, where the tracks say hardly any turning.
+    Turning(f64),
     /// Points of a table that turn less than others that are driven less: how many.
     Lagging(usize),
 }
@@ -31,6 +35,13 @@ impl fmt::Display for Finding {
             Self::Unread(reason) => f.write_str(reason),
             Self::Clock(error) => error.fmt(f),
             Self::Fit(contradiction) => contradiction.fmt(f),
+            Self::Turning(turned) => write!(
+                f,
+                "the poses turn {:.1} times, and the tracks say hardly any turning: are the speeds \
+                 of both sides the same one, or those of something else? Expected the speed of \
+                 each side",
+                turned / TAU
+            ),
             Self::Lagging(count) => write!(
                 f,
                 "{count} points turn less than one that is driven less: a track did not run at its \
@@ -50,4 +61,17 @@ pub(super) fn of_warnings(warnings: &[Warning]) -> (Vec<String>, Vec<Finding>) {
     let (choices, wrong): (Vec<&Warning>, Vec<&Warning>) = warnings.iter().partition(is_choice);
     let choices = choices.into_iter().map(ToString::to_string).collect();
     (choices, wrong.into_iter().cloned().map(Finding::Reading).collect())
+}
+
+/// Least turning of the poses, rad, that tracks have to show.
+const MIN_TURNED: f64 = TAU;
+
+/// Least part of it that they show.
+const MIN_SHOWN: f64 = 0.1;
+
+/// Poses that turn where the tracks say hardly any turning.
+pub(super) fn of_turning(driving: &Driving) -> Option<Finding> {
+    let turned = driving.turned_by_poses;
+    let shown = driving.turned.left + driving.turned.right;
+    (turned >= MIN_TURNED && shown < MIN_SHOWN * turned).then_some(Finding::Turning(turned))
 }

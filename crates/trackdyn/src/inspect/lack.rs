@@ -1,6 +1,7 @@
 //! What a recording lacks, and how to record it.
 
 use super::Driving;
+use super::finding::of_turning;
 use crate::ReadOptions;
 use std::f64::consts::TAU;
 use std::fmt;
@@ -106,11 +107,13 @@ pub(super) fn of_driving(motion: &Motion, driving: &Driving, speed_unit: f64) ->
     } else {
         about.unwrap_or(0.0) / speed_unit * driving.straight
     };
+    // What was turned cannot be told by tracks that do not show it.
+    let shows = of_turning(driving).is_none();
     let lacks = [
         (!is_known, Lack::WheelRadius { about }),
         (!driving.has_positions, Lack::Positions),
-        (!both(&driving.turned, MIN_TURNED), Lack::Turning(driving.turned)),
-        (!both(&driving.spun, MIN_SPUN), Lack::Spins(driving.spun)),
+        (shows && !both(&driving.turned, MIN_TURNED), Lack::Turning(driving.turned)),
+        (shows && !both(&driving.spun, MIN_SPUN), Lack::Spins(driving.spun)),
         (driving.has_positions && straight < MIN_STRAIGHT, Lack::Straight(straight)),
         (motion.stated_noise().is_none() && !driving.has_noise, Lack::Noise),
         (driving.duration < MIN_DURATION, Lack::Duration(driving.duration)),

@@ -104,12 +104,18 @@ pub(super) fn of_motion(
 ) -> Vec<Readiness> {
     let gap = driving.separation.as_ref().ok().map(|found| found.gap.value);
     let identified = to_identify(recording, settings, gap, findings);
-    let is_computed =
-        |of: &Finding| matches!(of, Finding::Fit(Contradiction::WheelOdometry { .. }));
-    let usable = if findings.iter().any(is_computed) {
-        Err("these poses are wheel odometry: expected those of something else")
-    } else {
-        recording.expect_positions().map_err(|_| "poses have a yaw alone: expected positions")
+    let unusable = findings.iter().find_map(|of| match of {
+        Finding::Fit(Contradiction::WheelOdometry { .. }) => {
+            Some("these poses are wheel odometry: expected those of something else")
+        }
+        Finding::Turning(_) => Some("the tracks do not turn as the poses do"),
+        _ => None,
+    });
+    let usable = match unusable {
+        Some(reason) => Err(reason),
+        None => {
+            recording.expect_positions().map_err(|_| "poses have a yaw alone: expected positions")
+        }
     };
     let [odometry, diagnose] = usable.map_or_else(
         |reason| {

@@ -11,6 +11,9 @@ use trackdyn_tests::cdr::Message;
 /// Radius of the wheels, m.
 pub const RADIUS: f64 = 0.165;
 
+/// Distance of the tracks, m.
+pub const SEPARATION: f64 = 1.02;
+
 /// Length of a drive, s.
 pub const LENGTH: f64 = 60.0;
 
@@ -33,7 +36,7 @@ pub fn angles(t: f64) -> PerSide<f64> {
     )
 }
 
-/// Poses of a robot whose tracks are 1.02 m apart, every 50 ms.
+/// Poses of a robot whose tracks are [`SEPARATION`] apart, every 50 ms.
 pub fn poses() -> Vec<(f64, Pose)> {
     let mut pose = Pose::default();
     let step = 0.005;
@@ -42,7 +45,8 @@ pub fn poses() -> Vec<(f64, Pose)> {
             let t = f64::from(k) * step;
             let found = (t, pose);
             let PerSide { left, right } = speeds(t + 0.5 * step).map(|speed| RADIUS * speed);
-            let twist = Twist { v_x: 0.5 * (left + right), v_y: 0.0, w: (right - left) / 1.02 };
+            let twist =
+                Twist { v_x: 0.5 * (left + right), v_y: 0.0, w: (right - left) / SEPARATION };
             pose = pose.compose(&Pose::exp(&twist, step));
             found
         })
@@ -122,6 +126,11 @@ impl Bag {
         cdr.numbers(&[x, y, 0.0]);
         cdr.numbers(&quaternion);
         self.messages.push((log, "/slam/frame", "geometry_msgs/msg/TransformStamped", cdr.0));
+    }
+
+    /// A message of any other type.
+    pub fn message(&mut self, log: i64, topic: &'static str, kind: &'static str, cdr: Message) {
+        self.messages.push((log, topic, kind, cdr.0));
     }
 
     /// The poses of the drive.

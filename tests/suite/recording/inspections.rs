@@ -1,10 +1,11 @@
 //! Judgements of bags: what is mended, what is told, and what is left to the user.
 
-use super::drives::{Bag, RADIUS, at, speeds, times};
+use super::drives::{Bag, RADIUS, SEPARATION, at, speeds, times};
 use trackdyn::inspect::{Content, Finding, Lack, Use, Verdict};
-use trackdyn::{InspectSettings, Inspection, inspect};
+use trackdyn::{InspectSettings, Inspection, Recording, inspect};
 use trackdyn_core::PerSide;
 use trackdyn_estimate::Contradiction;
+use trackdyn_tests::cdr::Message;
 
 /// Wheels whose joints count so many radians for one, 50 a second.
 fn wheels(signs: PerSide<f64>) -> Bag {
@@ -67,4 +68,51 @@ fn a_bag_without_poses_is_judged_by_its_topics() {
     assert!(found.lacks.contains(&Lack::Poses), "{:?}", found.lacks);
     assert!(found.readiness.iter().all(|of| !of.is_ready()) && found.over_time.is_none());
     assert_eq!(found.topics.len(), 1);
+}
+
+/// What a driver computes of its encoders: speeds of the body and poses, which are no reference.
+fn odometry() -> Bag {
+    let mut bag = Bag::default();
+    for t in times(50) {
+        let PerSide { left, right } = speeds(t).map(|speed| RADIUS * speed);
+        let mut cdr = Message::new(at(t).1, "odom");
+        cdr.text("base_link");
+        cdr.numbers(&[0.0; 3 + 3]);
+        cdr.numbers(&[1.0]);
+        cdr.numbers(&[0.0; 36]);
+        let yaw_rate = (right - left) / SEPARATION;
+        cdr.numbers(&[f64::midpoint(left, right), 0.0, 0.0, 0.0, 0.0, yaw_rate]);
+        cdr.numbers(&[0.0; 36]);
+        bag.message(at(t).0, "/odom", "nav_msgs/msg/Odometry", cdr);
+    }
+    bag
+}
+
+/// Poses of the driver whose speeds are taken are none: what is suggested is the gyroscope.
+#[test]
+fn beside_speeds_of_a_driver_the_gyroscope_is_suggested_and_not_its_poses() {
+    let mut bag = odometry();
+    for t in times(50) {
+        let PerSide { left, right } = speeds(t).map(|speed| RADIUS * speed);
+        let mut cdr = Message::new(at(t).1, "imu");
+        cdr.numbers(&[0.0, 0.0, 0.0, 1.0, -1.0]);
+        cdr.numbers(&[0.0; 8]);
+        cdr.numbers(&[0.0, 0.0, (right - left) / (1.5 * SEPARATION)]);
+        cdr.numbers(&[0.0; 9]);
+        cdr.numbers(&[0.0, 0.0, 9.8]);
+        cdr.numbers(&[0.0; 9]);
+        bag.message(at(t).0, "/imu", "sensor_msgs/msg/Imu", cdr);
+    }
+    let (_folder, path) = bag.write();
+    let found = inspect(&path, &InspectSettings::default()).expect("a bag");
+    let mut options = found.options;
+    let named = [&options.bag.twist_topic, &options.bag.pose_topic, &options.bag.parent_frame];
+    assert_eq!(named.map(Option::as_deref), [Some("/odom"), Some("/imu"), None]);
+    assert!(found.lacks.contains(&Lack::Positions), "{:?}", found.lacks);
+    options.bag.separation = Some(SEPARATION);
+    let recording = Recording::open(&path, &options).expect("the suggestion reads it");
+    assert!(recording.motion().is_some_and(|motion| !motion.has_positions()));
+
+    let found = inspected(odometry());
+    assert!(found.lacks.contains(&Lack::Poses), "{:?}", found.lacks);
 }

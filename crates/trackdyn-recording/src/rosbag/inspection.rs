@@ -57,7 +57,7 @@ pub fn inspect(path: &Path) -> Result<Inspection, Error> {
 }
 
 /// As [`inspect`], for a user who has given some options already: poses of a driver whose speeds
-/// are taken are suggested only where there are no others.
+/// are taken are suggested only where there are no others, and those beside a twist not at all.
 ///
 /// # Errors
 /// Those of [`inspect`].
@@ -183,7 +183,8 @@ fn first_choice(topics: Vec<&TopicSummary>) -> Vec<&TopicSummary> {
 }
 
 /// The topic of the poses and their frames: the only Odometry or stamped pose, else the only topic
-/// of transforms, whose chain from the root to the body of the robot is taken.
+/// of transforms, whose chain from the root to the body of the robot is taken. None for fixes: left
+/// open, they are taken where the yaw of an IMU goes with them, and its gyroscope alone otherwise.
 fn suggest_poses(topics: Vec<&TopicSummary>) -> (Option<String>, Option<(String, String)>) {
     let topics = first_choice(topics);
     let is_tf = |topic: &&TopicSummary| is_transforms(&topic.kind);
@@ -193,6 +194,9 @@ fn suggest_poses(topics: Vec<&TopicSummary>) -> (Option<String>, Option<(String,
     let (([topic], _) | ([], [topic])) = (direct.as_slice(), moves.as_slice()) else {
         return (None, None);
     };
+    if Layout::of_kind(&topic.kind) == Some(Layout::Fix) {
+        return (None, None);
+    }
     let ends = match topic.frames.as_slice() {
         [pair] => Some(pair.clone()),
         _ if direct.is_empty() => {
@@ -231,12 +235,18 @@ fn suggest(topics: &[TopicSummary], given: &RosbagOptions) -> RosbagOptions {
         (true, Some(topic), None) => Some(topic.name.clone()),
         _ => None,
     };
-    let is_of_speeds = |topic: &&TopicSummary| {
-        given.takes_speeds_of(&topic.name) || Some(&topic.name) == twist.as_ref()
+    let imu = only(of(Role::Imu).collect());
+    let is_of_signals = |topic: &&TopicSummary| given.takes_speeds_of(&topic.name);
+    let of_twist = given.twist_topic.as_ref().or(twist.as_ref());
+    // Poses beside a twist come from the tracks themselves.
+    let poses = of(Role::Poses).filter(|topic| Some(&topic.name) != of_twist);
+    let (of_signals, others): (Vec<_>, Vec<_>) = poses.partition(is_of_signals);
+    let poses = if others.is_empty() { of_signals } else { others };
+    let (pose, frames) = if poses.is_empty() && of_twist.is_some() {
+        (imu.clone(), None)
+    } else {
+        suggest_poses(poses)
     };
-    let (of_speeds, others): (Vec<_>, Vec<_>) = of(Role::Poses).partition(is_of_speeds);
-    let (pose, frames) = suggest_poses(if others.is_empty() { of_speeds } else { others });
-    let pose = pose.filter(|pose| Some(pose) != twist.as_ref());
     RosbagOptions {
         left_joints: side(Side::Left),
         right_joints: side(Side::Right),
@@ -245,7 +255,7 @@ fn suggest(topics: &[TopicSummary], given: &RosbagOptions) -> RosbagOptions {
         parent_frame: frames.as_ref().map(|(parent, _)| parent.clone()),
         child_frame: frames.map(|(_, child)| child).filter(|child| !child.is_empty()),
         pose_topic: pose,
-        imu_topic: only(of(Role::Imu).collect()),
+        imu_topic: imu,
         ..RosbagOptions::default()
     }
 }

@@ -123,12 +123,19 @@ pub(super) fn of_driving(motion: &Motion, driving: &Driving, speed_unit: f64) ->
 
 /// What a bag lacks by its topics.
 pub(super) fn of_topics(topics: &[TopicSummary], options: &ReadOptions) -> Vec<Lack> {
-    let has = |role: Role| topics.iter().any(|of| of.role == Some(role) && of.messages > 0);
     let bag = &options.bag;
+    let has = |role: Role| topics.iter().any(|of| of.role == Some(role) && of.messages > 0);
+    // Poses beside a twist come from the tracks themselves.
+    let has_poses = topics.iter().any(|of| {
+        of.role == Some(Role::Poses)
+            && of.messages > 0
+            && Some(&of.name) != bag.twist_topic.as_ref()
+    });
     let is_named = bag.twist_topic.is_some() || !bag.left_signals.is_empty();
     let lacks = [
         (!has(Role::Tracks) && !is_named, Lack::Tracks),
-        (!has(Role::Poses) && !has(Role::Imu), Lack::Poses),
+        (!has_poses && !has(Role::Imu), Lack::Poses),
+        (!has_poses && has(Role::Imu), Lack::Positions),
         (
             (has(Role::Tracks) || is_named) && bag.wheel_radius.is_none() && bag.counts_wheels(),
             Lack::WheelRadius { about: None },

@@ -119,7 +119,7 @@ fn trajectories_that_do_not_fit_are_pointed_at() {
         ("identify bad.tum --tracks tracks.csv", "bad.tum:2:5: qx = \"zero\": expected a number"),
         ("identify walk.tum --tracks short.csv", "short.csv:1: columns t,v_left: expected"),
         ("identify walk.tum --tracks missing.csv", "missing.csv: cannot be read"),
-        ("identify rec --tracks tracks.csv", "rec has track speeds of its own"),
+        ("identify rec --tracks tracks.csv", "rec is no .tum or .txt trajectory"),
         ("identify notes.pdf", "notes.pdf: a file of another kind"),
     ] {
         let run = place.run(&format!("{arguments} --vehicle {vehicle}"));

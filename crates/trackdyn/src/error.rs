@@ -62,9 +62,10 @@ pub enum Error {
         /// The trajectory.
         path: PathBuf,
     },
-    /// Track speeds for a recording that has its own.
+    /// Track speeds for a recording that is no trajectory.
     #[error(
-        "tracks: {} has track speeds of its own: only a .tum or .txt trajectory needs them",
+        "tracks: {} is no .tum or .txt trajectory: expected a table of track speeds beside one \
+         alone",
         path.display()
     )]
     TracksNotNeeded {

@@ -2,6 +2,7 @@
 
 use super::drives::{Bag, RADIUS, SEPARATION, at, speeds, times};
 use trackdyn::inspect::{Content, Finding, Lack, Use, Verdict};
+use trackdyn::recording::SpeedUnit;
 use trackdyn::{InspectSettings, Inspection, Recording, inspect};
 use trackdyn_core::PerSide;
 use trackdyn_estimate::Contradiction;
@@ -115,4 +116,34 @@ fn beside_speeds_of_a_driver_the_gyroscope_is_suggested_and_not_its_poses() {
 
     let found = inspected(odometry());
     assert!(found.lacks.contains(&Lack::Poses), "{:?}", found.lacks);
+}
+
+/// Numbers on topics of their own, in m/s, whose type is not defined in the bag.
+#[test]
+fn numbers_of_both_sides_are_found_by_their_names_and_their_unit_by_the_poses() {
+    let mut bag = Bag::default();
+    let mut number = |t: f64, topic: &'static str, value: f64| {
+        let mut cdr = Message::bare();
+        cdr.numbers(&[value]);
+        bag.message(at(t).0, topic, "std_msgs/msg/Float64", cdr);
+    };
+    for t in times(50) {
+        let PerSide { left, right } = speeds(t).map(|speed| RADIUS * speed);
+        number(t, "/vl", left);
+        number(t, "/vr", right);
+        number(t, "/cmd_left", left);
+        number(t, "/cmd_right", right);
+        number(t, "/voltage", 24.0);
+    }
+    let found = inspected(bag.with_poses());
+    let bag = &found.options.bag;
+    assert_eq!(
+        (&bag.left_signals[..], &bag.right_signals[..]),
+        (&["/vl:data".to_owned()][..], &["/vr:data".to_owned()][..])
+    );
+    assert_eq!(bag.speed_unit, Some(SpeedUnit::MetresPerSecond), "{:?}", found.findings);
+    assert_eq!(radius(&found), None);
+    let Content::Motion(driving) = &found.content else { panic!("{:?}", found.content) };
+    let ratio = driving.travel_ratio.expect("a way");
+    assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
 }

@@ -1,5 +1,6 @@
 //! What a bag holds, and which options would read it.
 
+use super::definition::bare;
 use super::dynamic_joints;
 use super::frames::{Frames, is_transforms, may_be_odometry};
 use super::joints;
@@ -14,7 +15,7 @@ use crate::Error;
 use crate::recording::Warning;
 use std::collections::BTreeMap;
 use std::path::Path;
-use trackdyn_core::Side;
+use trackdyn_core::{PerSide, Side};
 
 /// Contents of a bag.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,9 +65,17 @@ pub fn inspect(path: &Path) -> Result<Inspection, Error> {
 pub fn inspect_for(path: &Path, given: &RosbagOptions) -> Result<Inspection, Error> {
     let mut observer = Observer::default();
     let mut warnings = storage::scan(path, &mut observer)?;
-    let topics: Vec<TopicSummary> =
+    let mut topics: Vec<TopicSummary> =
         observer.topics.into_iter().map(|(topic, seen)| seen.summary(topic)).collect();
     let suggested = suggest(&topics, given);
+    for topic in &mut topics {
+        let of_topic = Some(signal_of(topic));
+        if of_topic.as_ref() == suggested.left_signals.first()
+            || of_topic.as_ref() == suggested.right_signals.first()
+        {
+            topic.role = Some(Role::Tracks);
+        }
+    }
     let chosen = topics.iter().filter(|topic| Some(&topic.name) == suggested.pose_topic.as_ref());
     let odometry = chosen.filter(|topic| {
         may_be_odometry(&topic.kind, topic.frames.iter().map(|(parent, _)| &**parent))
@@ -217,6 +226,44 @@ fn has_twist(topic: &TopicSummary) -> bool {
     twist::is_offered(&topic.name, &topic.kind)
 }
 
+/// Types of one number, which may be the speed of a side.
+const NUMBERS: [&str; 2] = ["std_msgs/Float32", "std_msgs/Float64"];
+
+/// What names a side in a topic of its own, left and right.
+const SIDES: [[&str; 2]; 4] = [["left", "right"], ["Left", "Right"], ["l", "r"], ["L", "R"]];
+
+/// The number in a message that is nothing else.
+fn signal_of(topic: &TopicSummary) -> String {
+    format!("{}:data", topic.name)
+}
+
+/// The only two topics of a number each whose names differ in their side, and that are no commands.
+fn numbers_of_sides(topics: &[TopicSummary]) -> Option<PerSide<String>> {
+    let is_number = |topic: &&TopicSummary| {
+        topic.messages > 0
+            && NUMBERS.contains(&bare(&topic.kind).as_str())
+            && !twist::is_command(&topic.name)
+    };
+    let numbers: Vec<&TopicSummary> = topics.iter().filter(is_number).collect();
+    let of_right = |left: &TopicSummary| {
+        let named = SIDES.iter().flat_map(|[of_left, of_right]| {
+            let places = left.name.match_indices(of_left);
+            places.map(|(at, _)| {
+                let mut name = left.name.clone();
+                name.replace_range(at..at + of_left.len(), of_right);
+                name
+            })
+        });
+        let named: Vec<String> = named.collect();
+        numbers.iter().find(|right| right.kind == left.kind && named.contains(&right.name)).copied()
+    };
+    let mut pairs = numbers.iter().filter_map(|left| Some([*left, of_right(left)?]));
+    match (pairs.next(), pairs.next()) {
+        (Some([left, right]), None) => Some(PerSide::new(signal_of(left), signal_of(right))),
+        _ => None,
+    }
+}
+
 /// Names what the bag has one of; among several poses, an Odometry or stamped pose before tf.
 fn suggest(topics: &[TopicSummary], given: &RosbagOptions) -> RosbagOptions {
     let of = |role| topics.iter().filter(move |t| t.role == Some(role) && t.messages > 0);
@@ -235,6 +282,9 @@ fn suggest(topics: &[TopicSummary], given: &RosbagOptions) -> RosbagOptions {
         (true, Some(topic), None) => Some(topic.name.clone()),
         _ => None,
     };
+    let numbers = numbers_of_sides(topics).filter(|_| tracks.is_none() && twist.is_none());
+    let numbers: Option<PerSide<Vec<String>>> = numbers.map(|of| of.map(|signal| vec![signal]));
+    let numbers = numbers.unwrap_or_default();
     let imu = only(of(Role::Imu).collect());
     let is_of_signals = |topic: &&TopicSummary| given.takes_speeds_of(&topic.name);
     let of_twist = given.twist_topic.as_ref().or(twist.as_ref());
@@ -250,6 +300,8 @@ fn suggest(topics: &[TopicSummary], given: &RosbagOptions) -> RosbagOptions {
     RosbagOptions {
         left_joints: side(Side::Left),
         right_joints: side(Side::Right),
+        left_signals: numbers.left,
+        right_signals: numbers.right,
         tracks_topic: tracks,
         twist_topic: twist,
         parent_frame: frames.as_ref().map(|(parent, _)| parent.clone()),

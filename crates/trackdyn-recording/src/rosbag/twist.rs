@@ -76,7 +76,12 @@ pub(super) fn is_offered(name: &str, kind: &str) -> bool {
         Some(Layout::PoseOfChild) => kind.ends_with("/Odometry"),
         _ => false,
     };
-    has_twist && !words(name).iter().any(|word| COMMAND.contains(&word.as_str()))
+    has_twist && !is_command(name)
+}
+
+/// Whether a topic says how fast a robot should be, by its name.
+pub(super) fn is_command(name: &str) -> bool {
+    words(name).iter().any(|word| COMMAND.contains(&word.as_str()))
 }
 
 /// What a log without joints has instead, and the options that read it.

@@ -5,7 +5,7 @@ use crate::{ReadOptions, Recording};
 use std::path::Path;
 use trackdyn_core::PerSide;
 use trackdyn_recording::rosbag::RosbagOptions;
-use trackdyn_recording::{Doubt, Error};
+use trackdyn_recording::{Doubt, Error, SpeedUnit};
 
 /// Radius that is assumed where none is given, m: that of no robot is so far from it that units
 /// would look mixed up.
@@ -50,6 +50,14 @@ pub(super) fn read(
                 if let Some(ratio) = found.filter(|ratio| is_off(*ratio) && !is_measured) {
                     radius *= ratio;
                     is_measured = true;
+                    continue;
+                }
+                if is_open && found.is_some() && is_of_tracks(radius, &options.bag) {
+                    findings.push(Finding::Mended(format!(
+                        "by the way of the poses, these speeds would be of wheels whose radius is \
+                         {radius:.2} m: those of the tracks in m/s"
+                    )));
+                    options.bag.speed_unit = Some(SpeedUnit::MetresPerSecond);
                     continue;
                 }
                 let speed_unit = if is_open { radius } else { 1.0 };
@@ -104,6 +112,12 @@ fn is_off(ratio: f64) -> bool {
     ratio > 0.0 && (ratio - 1.0).abs() > TOLERANCE
 }
 
+/// Whether speeds of such wheels are those of the tracks, m/s: no wheel has a radius of 1 m.
+fn is_of_tracks(radius: f64, options: &RosbagOptions) -> bool {
+    const TOLERANCE: f64 = 0.1;
+    options.speed_unit.is_none() && (radius - 1.0).abs() < TOLERANCE
+}
+
 /// Takes what is suggested where nothing is said.
 fn fill(options: &mut RosbagOptions, suggested: &RosbagOptions) {
     let take = |option: &mut Option<String>, suggested: &Option<String>| {
@@ -125,6 +139,10 @@ fn fill(options: &mut RosbagOptions, suggested: &RosbagOptions) {
         options.wheel_radius = None;
     }
     take(&mut options.tracks_topic, &suggested.tracks_topic);
+    if options.tracks_topic.is_none() && options.left_joints.is_empty() {
+        options.left_signals.clone_from(&suggested.left_signals);
+        options.right_signals.clone_from(&suggested.right_signals);
+    }
     let sides = [
         (&mut options.left_joints, &suggested.left_joints),
         (&mut options.right_joints, &suggested.right_joints),

@@ -25,8 +25,10 @@ const MIN_DURATION: f64 = 60.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Lack {
-    /// Track speeds.
+    /// Track speeds of a trajectory.
     Tracks,
+    /// Track speeds of a bag.
+    TracksOfBag,
     /// Poses that something else than the tracks measured.
     Poses,
     /// The belt travel per radian of the joints; `about` is what poses make of it, m.
@@ -56,6 +58,11 @@ impl Lack {
                 "record the joint states of both sides, or give a table t,v_left,v_right with \
                  --tracks"
             }
+            Self::TracksOfBag => {
+                "record the joint states of both sides; numbers of other messages are named by \
+                 --left-signal and --right-signal, speeds of the body by --twist-topic; with a \
+                 table of track speeds, a .tum or .txt trajectory of its poses is read by --tracks"
+            }
             Self::Poses => {
                 "record poses that do not come from the wheels: lidar, GNSS, motion capture; a \
                  gyroscope tells the distance of the ICRs alone"
@@ -80,7 +87,7 @@ impl fmt::Display for Lack {
             format!("{:.1} turns left and {:.1} right", of.left, of.right)
         };
         match self {
-            Self::Tracks => f.write_str("track speeds"),
+            Self::Tracks | Self::TracksOfBag => f.write_str("track speeds"),
             Self::Poses => f.write_str("poses"),
             Self::WheelRadius { about: None } => f.write_str("the wheel radius"),
             Self::WheelRadius { about: Some(about) } => {
@@ -133,7 +140,7 @@ pub(super) fn of_topics(topics: &[TopicSummary], options: &ReadOptions) -> Vec<L
     });
     let is_named = bag.twist_topic.is_some() || !bag.left_signals.is_empty();
     let lacks = [
-        (!has(Role::Tracks) && !is_named, Lack::Tracks),
+        (!has(Role::Tracks) && !is_named, Lack::TracksOfBag),
         (!has_poses && !has(Role::Imu), Lack::Poses),
         (!has_poses && has(Role::Imu), Lack::Positions),
         (

@@ -13,11 +13,26 @@ const MAX_FOLDERS: usize = 8;
 /// What stands between definitions, at least.
 const RULE: &str = "===";
 
-/// Definitions that no bag and no folder has to have.
-const KNOWN: [(&str, &str); 3] = [
+/// Definitions that no bag and no folder has to have: those of numbers, which bags of ROS 2 before
+/// Iron hold without.
+const KNOWN: [(&str, &str); 17] = [
     ("builtin_interfaces/Time", "int32 sec\nuint32 nanosec"),
     ("builtin_interfaces/Duration", "int32 sec\nuint32 nanosec"),
     ("std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id"),
+    ("std_msgs/Float32", "float32 data"),
+    ("std_msgs/Float64", "float64 data"),
+    ("std_msgs/Int8", "int8 data"),
+    ("std_msgs/Int16", "int16 data"),
+    ("std_msgs/Int32", "int32 data"),
+    ("std_msgs/Int64", "int64 data"),
+    ("std_msgs/MultiArrayDimension", "string label\nuint32 size\nuint32 stride"),
+    ("std_msgs/MultiArrayLayout", "MultiArrayDimension[] dim\nuint32 data_offset"),
+    ("std_msgs/Float32MultiArray", "MultiArrayLayout layout\nfloat32[] data"),
+    ("std_msgs/Float64MultiArray", "MultiArrayLayout layout\nfloat64[] data"),
+    ("std_msgs/Int16MultiArray", "MultiArrayLayout layout\nint16[] data"),
+    ("std_msgs/Int32MultiArray", "MultiArrayLayout layout\nint32[] data"),
+    ("std_msgs/Int64MultiArray", "MultiArrayLayout layout\nint64[] data"),
+    ("std_msgs/UInt16", "uint16 data"),
 ];
 
 /// A type without `msg/`, as both versions of ROS write it.

@@ -171,6 +171,24 @@ fn what_a_recording_does_not_determine_is_not_written() {
     }
 }
 
+/// A sound recording that turns too little is no bad input.
+#[test]
+fn a_recording_that_does_not_tell_gives_no_result() {
+    let place = Workplace::new();
+    let curve = |left, right| Stretch { duration: 10.0, speeds: PerSide::new(left, right) };
+    record(&place, vec![vec![curve(0.5, 0.55), curve(0.55, 0.5)]]);
+    // yaw alone
+    let poses = String::from_utf8(place.read("rec/poses.csv")).expect("text");
+    let bare = poses.lines().skip(1).map(|line| {
+        let cells: Vec<&str> = line.split(',').collect();
+        format!("{},,,{}\n", cells[0], cells[3])
+    });
+    place.write("rec/poses.csv", &("t,x,y,yaw\n".to_owned() + &bare.collect::<String>()));
+    let run = place.run(&format!("identify rec --vehicle {}", vehicle()));
+    assert_eq!(run.status, 2, "{}", run.stderr);
+    assert!(run.stderr.contains("the distance of the ICRs cannot be estimated"), "{}", run.stderr);
+}
+
 #[test]
 fn mistakes_are_named() {
     let place = Workplace::new();

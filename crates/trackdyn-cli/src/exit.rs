@@ -1,5 +1,6 @@
 //! Exit status of the program.
 
+use std::error::Error;
 use std::process::ExitCode;
 
 /// How a run ended.
@@ -11,6 +12,15 @@ pub enum Exit {
     BadInput,
     /// 2: the input is sound, but the computation gave no result.
     NoResult,
+}
+
+impl Exit {
+    /// How a run ended that an error ended.
+    pub fn of(error: &(dyn Error + 'static)) -> Self {
+        let of_library = error.downcast_ref::<trackdyn::Error>();
+        let is_no_result = of_library.is_some_and(trackdyn::Error::is_no_result);
+        if is_no_result { Self::NoResult } else { Self::BadInput }
+    }
 }
 
 impl From<Exit> for ExitCode {

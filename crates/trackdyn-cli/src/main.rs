@@ -56,7 +56,7 @@ fn main() -> ExitCode {
         Ok(exit) => exit.into(),
         Err(error) => {
             fail(&wording::message(&*error));
-            Exit::BadInput.into()
+            Exit::of(&*error).into()
         }
     }
 }

@@ -104,3 +104,17 @@ pub enum Error {
     #[error("stopped before the end")]
     Cancelled,
 }
+
+impl Error {
+    /// Whether the recording is sound and only does not tell what was asked: other driving would.
+    pub fn is_no_result(&self) -> bool {
+        matches!(
+            self,
+            Self::NoSpin { .. }
+                | Self::NotDetermined(_)
+                | Self::ClockLeaves { .. }
+                | Self::NotConverged { .. }
+                | Self::NotEstimable { .. }
+        )
+    }
+}

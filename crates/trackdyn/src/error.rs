@@ -363,6 +363,11 @@ pub enum Error {
 }
 
 impl Error {
+    /// Whether the input is sound, and the computation gave no result.
+    pub fn is_no_result(&self) -> bool {
+        matches!(self, Self::Identify { cause, .. } if cause.is_no_result())
+    }
+
     /// The setting that is to be changed, where the message begins with its name.
     pub fn setting(&self) -> Option<&'static str> {
         match self {

@@ -171,19 +171,38 @@ fn what_a_recording_does_not_determine_is_not_written() {
     }
 }
 
-/// A sound recording that turns too little is no bad input.
-#[test]
-fn a_recording_that_does_not_tell_gives_no_result() {
-    let place = Workplace::new();
-    let curve = |left, right| Stretch { duration: 10.0, speeds: PerSide::new(left, right) };
-    record(&place, vec![vec![curve(0.5, 0.55), curve(0.55, 0.5)]]);
-    // yaw alone
+/// Writes a recording whose poses have a yaw alone.
+fn record_yaw_alone(place: &Workplace, schedules: Vec<Vec<Stretch>>) {
+    record(place, schedules);
     let poses = String::from_utf8(place.read("rec/poses.csv")).expect("text");
     let bare = poses.lines().skip(1).map(|line| {
         let cells: Vec<&str> = line.split(',').collect();
         format!("{},,,{}\n", cells[0], cells[3])
     });
     place.write("rec/poses.csv", &("t,x,y,yaw\n".to_owned() + &bare.collect::<String>()));
+}
+
+/// ICRs between the tracks are contradicted once, with all that makes track speeds.
+#[test]
+fn a_distance_that_no_friction_makes_is_told_once() {
+    let place = Workplace::new();
+    record_yaw_alone(&place, vec![random_steps(40, 2.0, 0.8, 1)]);
+    let run = place.run("identify rec --gauge 1.3");
+    assert_eq!(run.status, 2, "{}", run.stderr);
+    let text = run.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(text.matches("friction cannot put them").count(), 1, "{}", run.stdout);
+    assert!(text.contains("of a twist the --separation"), "{}", run.stdout);
+    // why inspect says no is what contradicts, and not that yaw alone is known
+    let run = place.run("inspect rec --gauge 1.3");
+    assert!(run.stdout.contains("identify  no: chi = "), "{}", run.stdout);
+}
+
+/// A sound recording that turns too little is no bad input.
+#[test]
+fn a_recording_that_does_not_tell_gives_no_result() {
+    let place = Workplace::new();
+    let curve = |left, right| Stretch { duration: 10.0, speeds: PerSide::new(left, right) };
+    record_yaw_alone(&place, vec![vec![curve(0.5, 0.55), curve(0.55, 0.5)]]);
     let run = place.run(&format!("identify rec --vehicle {}", vehicle()));
     assert_eq!(run.status, 2, "{}", run.stderr);
     assert!(run.stderr.contains("the distance of the ICRs cannot be estimated"), "{}", run.stderr);

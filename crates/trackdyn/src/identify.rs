@@ -208,9 +208,10 @@ impl Identification {
                 Ok(fit) => fit.doubts(points.gauge()).first().map(ToString::to_string),
                 Err(reason) => Some(reason.to_string()),
             }),
-            Self::Turning(_) => {
-                let reason = || Some("poses have a yaw alone".to_owned());
-                [reason(), reason()]
+            Self::Turning(fit) => {
+                let contradiction = fit.contradictions().first().map(ToString::to_string);
+                let reason = contradiction.or_else(|| Some("poses have a yaw alone".to_owned()));
+                [reason.clone(), reason]
             }
         };
         let mut contradictions = self.contradictions().into_iter();
@@ -244,8 +245,12 @@ impl Identification {
     }
 
     /// Why a table of steady points, or a recording, does not even determine the distance of the
-    /// ICRs; none where it does, or where a fit says why.
+    /// ICRs; none where it does, where a fit says why, and where poses have a yaw alone, of which
+    /// [`contradictions`](Self::contradictions) say why.
     pub fn reason_without_separation(&self) -> Option<String> {
+        if let Self::Turning(_) = self {
+            return None;
+        }
         if let Some((found, sourced)) = self.turning() {
             let efficiency = found.steering_efficiency(sourced.gauge);
             return Contradiction::of_efficiency(&efficiency).map(|one| one.to_string());

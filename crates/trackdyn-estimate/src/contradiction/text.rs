@@ -23,23 +23,26 @@ impl Display for Contradiction {
             Self::Efficiency { chi } => write!(
                 f,
                 "chi = {chi:.2}: the ICRs lie on the tracks' centre-lines or between them, where \
-                 friction cannot put them: check the gauge, the wheel radius, and which joints \
-                 were taken; or these poses or speeds are computed without slip"
+                 friction cannot put them: check the gauge, and what makes the track speeds: the \
+                 wheel radius, which joints were taken, or of a twist the --separation, by which \
+                 its driver may correct for slip; or these poses or speeds are computed without \
+                 slip"
             ),
             Self::Apart { chi } => apart(f, chi),
             Self::Follows { left } => write!(
                 f,
                 "the poses follow the track speeds over seconds, and not as through a filter, \
                  which leaves {:.0} % of the turning: commands that the tracks do not keep up with \
-                 in place of measured speeds? Expected what encoders measure (--joint-signal, \
-                 --tracks-topic, --left-signal), or each command held until the robot follows",
+                 in place of measured speeds? Expected what encoders measure (of a bag \
+                 --joint-signal, --tracks-topic or --left-signal), or each command held until the \
+                 robot follows",
                 100.0 * left
             ),
             Self::Response { gap, fit } => write!(
                 f,
                 "x_r - x_l is {fit:.3} m by the fit and {gap:.3} m by turning over seconds: the \
                  poses do not follow the track speeds as one robot does: check whether speeds or \
-                 poses are filtered, and whether speeds are commands (--joint-signal, \
+                 poses are filtered, and whether speeds are commands (of a bag --joint-signal, \
                  --tracks-topic)"
             ),
             Self::Way { left, mount, during } => way(f, left, mount, during),

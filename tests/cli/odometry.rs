@@ -87,6 +87,22 @@ fn true_parameters_win_by_all_that_is_not_noise() {
     }
 }
 
+/// Errors of parameters that are far off are wide, and still stand apart.
+#[test]
+fn columns_do_not_run_together() {
+    let place = workplace(&synthetic());
+    let file = String::from_utf8(place.read("other.toml")).expect("text");
+    place.write("near.toml", &file.replace("x_icr_right_m = 0.5", "x_icr_right_m = -0.3995"));
+    let run = place.run("odometry recording --gauge 0.42 --kinematics near.toml");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let rows: Vec<&str> = run.stdout.lines().filter(|line| line.starts_with("  near")).collect();
+    assert!(rows.len() >= 2, "{}", run.stdout);
+    for row in rows {
+        let mut cells = row.split_whitespace().skip(1);
+        assert!(cells.all(|cell| cell == "±" || cell.parse::<f64>().is_ok()), "{row}");
+    }
+}
+
 #[test]
 fn trajectories_start_together_and_have_one_line_per_pose() {
     let place = workplace(&synthetic());

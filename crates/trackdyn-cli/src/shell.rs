@@ -79,13 +79,19 @@ pub fn reading(options: &ReadOptions, needs_radius: bool) -> Vec<String> {
             Dating::Log => Some("log"),
         },
     );
-    let yaw = bag.mount_yaw.map(|yaw| yaw.to_degrees().to_string());
+    let yaw = bag.mount_yaw.map(|yaw| degrees(yaw).to_string());
     add("mount-yaw", yaw.as_deref());
     add("gyro-unit", bag.gyro_in_degrees.then_some("deg/s"));
     for doubt in &bag.accepted {
         add("accept", Some(doubt.name()));
     }
     words
+}
+
+/// An angle in degrees as it was typed: without what its way to radians and back adds.
+fn degrees(angle: f64) -> f64 {
+    const PER_DEGREE: f64 = 1e9;
+    (PER_DEGREE * angle.to_degrees()).round() / PER_DEGREE
 }
 
 /// The options that take a part of a recording.
@@ -126,6 +132,16 @@ mod tests {
         assert_eq!(quoted("~"), "'~'");
         assert_eq!(quoted(""), "''");
         assert_eq!(path(std::path::Path::new("-x.mcap")), "./-x.mcap");
+    }
+
+    #[test]
+    fn angles_come_back_as_they_were_typed() {
+        for typed in [24.0, -0.1, 180.0, 1.0 / 3.0] {
+            let shown = degrees(f64::to_radians(typed)).to_string();
+            assert!(shown.len() <= 12, "{shown}");
+            assert!((shown.parse::<f64>().expect("a number") - typed).abs() < 1e-9, "{shown}");
+        }
+        assert_eq!(degrees(24.0_f64.to_radians()).to_string(), "24");
     }
 
     #[test]

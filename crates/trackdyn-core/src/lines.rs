@@ -8,6 +8,17 @@ pub fn shortened(text: &str, most: usize) -> String {
     }
 }
 
+/// A count with its noun.
+///
+/// ```
+/// use trackdyn_core::lines::counted;
+/// assert_eq!([counted(1, "run"), counted(2, "run")], ["1 run", "2 runs"]);
+/// ```
+pub fn counted(count: usize, noun: &str) -> String {
+    let ending = if count == 1 { "" } else { "s" };
+    format!("{count} {noun}{ending}")
+}
+
 /// A text behind a label in lines of at most `width` characters, its further lines below its first.
 /// A text that fits stays as it is. Words that are longer than a line stay whole, for they are
 /// paths to be copied.

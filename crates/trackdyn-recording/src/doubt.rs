@@ -174,7 +174,7 @@ impl fmt::Display for Doubt {
                 };
                 write!(f, "the {more} travel {factor:.1} times as far as the {less}")?;
                 match units {
-                    Some(units) => write!(f, ", the ratio of {units}"),
+                    Some(units) => write!(f, ", about the ratio of {units}"),
                     None => write!(f, ", which no slip explains"),
                 }
             }

@@ -3,6 +3,7 @@
 use crate::sample::Stream;
 use std::fmt;
 use trackdyn_core::Side;
+use trackdyn_core::lines::counted;
 
 /// One kind of finding in one series, gathered over the runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -175,6 +176,6 @@ impl fmt::Display for Cleaning {
                 )?;
             }
         }
-        write!(f, " ({runs} runs, first at t = {t} s of run {run})")
+        write!(f, " ({}, first at t = {t} s of run {run})", counted(*runs, "run"))
     }
 }

@@ -5,6 +5,7 @@ use crate::doubt::Doubt;
 use std::f64::consts::TAU;
 use std::fmt;
 use std::path::PathBuf;
+use trackdyn_core::lines::counted;
 
 /// Something the user should know about a recording that can be used all the same.
 #[derive(Clone, Debug, PartialEq)]
@@ -280,9 +281,10 @@ fn from_twist(f: &mut fmt::Formatter<'_>, topic: &str, separation: f64) -> fmt::
 fn positions_unknown(f: &mut fmt::Formatter<'_>, runs: usize, of: usize) -> fmt::Result {
     write!(
         f,
-        "poses: in {runs} runs x and y are empty, or never change while the tracks travel: \
-                 positions are not known, {}",
-        if runs == of { "only yaw counts" } else { "and these runs are left out" }
+        "poses: {} with a yaw alone (no x and y, or such as never change while the tracks \
+         travel): {}",
+        counted(runs, "run"),
+        if runs == of { "positions are not known" } else { "left out" }
     )
 }
 

@@ -5,6 +5,7 @@ use super::finding::of_turning;
 use crate::ReadOptions;
 use std::f64::consts::TAU;
 use std::fmt;
+use std::ops::RangeInclusive;
 use trackdyn_core::PerSide;
 use trackdyn_recording::Recording as Motion;
 use trackdyn_recording::rosbag::{Role, TopicSummary};
@@ -20,6 +21,9 @@ const MIN_STRAIGHT: f64 = 5.0;
 
 /// Time in all, s.
 const MIN_DURATION: f64 = 60.0;
+
+/// Radii of wheels and sprockets, m.
+const RADII: RangeInclusive<f64> = 0.01..=1.0;
 
 /// Something that a recording lacks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,6 +71,12 @@ impl Lack {
                 "record poses that do not come from the wheels: lidar, GNSS, motion capture; a \
                  gyroscope tells the distance of the ICRs alone"
             }
+            Self::WheelRadius { about: Some(about) } if !RADII.contains(about) => {
+                "no wheel: do the joints turn before a gear, or are their speeds in another unit \
+                 than rad/s? --speed-unit reads rpm, deg/s, turns/s, m/s and others; what is left, \
+                 such as a gear or rad/min, --wheel-radius takes as m of the track per radian of \
+                 the joint"
+            }
             Self::WheelRadius { .. } => {
                 "measure it: belt travel in one turn of the joint, divided by 2 pi"
             }
@@ -91,7 +101,15 @@ impl fmt::Display for Lack {
             Self::Poses => f.write_str("poses"),
             Self::WheelRadius { about: None } => f.write_str("the wheel radius"),
             Self::WheelRadius { about: Some(about) } => {
-                write!(f, "the wheel radius: poses say some {about:.3} m, slip included")
+                // three digits
+                let decimals = (2.0 - about.log10().floor()).clamp(0.0, 9.0);
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "0 to 9"
+                )]
+                let decimals = decimals as usize;
+                write!(f, "the wheel radius: poses say some {about:.decimals$} m, slip included")
             }
             Self::Positions => f.write_str("positions: only yaw is known"),
             Self::Turning(of) => write!(f, "turning both ways: {}", turns(of)),
@@ -149,4 +167,21 @@ pub(super) fn of_topics(topics: &[TopicSummary], options: &ReadOptions) -> Vec<L
         ),
     ];
     lacks.into_iter().filter_map(|(is_lacking, lack)| is_lacking.then_some(lack)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// rad/min in place of rad/s: the radius of a wheel divided by 60.
+    #[test]
+    fn a_radius_of_no_wheel_is_told_in_full_and_asks_for_the_unit() {
+        let lack = |about| Lack::WheelRadius { about: Some(about) };
+        let of_minutes = lack(0.014 / 60.0);
+        assert!(of_minutes.to_string().contains("some 0.000233 m"), "{of_minutes}");
+        assert!(of_minutes.advice().contains("--speed-unit"));
+        let of_wheel = lack(0.1649);
+        assert!(of_wheel.to_string().contains("some 0.165 m"), "{of_wheel}");
+        assert!(of_wheel.advice().starts_with("measure it"));
+    }
 }

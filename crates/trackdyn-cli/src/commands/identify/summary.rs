@@ -2,6 +2,7 @@
 
 use crate::wrapped::wrapped;
 use std::fmt::Write;
+use trackdyn::crates::core::lines::counted;
 use trackdyn::crates::estimate::identification::Fit;
 use trackdyn::crates::estimate::{
     Clock, Contradiction, Estimate, Free, Identification, Interval, Nuisance, Parameters, Response,
@@ -19,9 +20,9 @@ pub fn text(recording: &Recording, gauge: &Gauge, fit: &MotionFit) -> String {
     let seconds: f64 = runs.iter().map(Run::duration).sum();
     let _ = writeln!(
         text,
-        "{}: {} runs, {seconds:.0} s, {} segments; {}, gauge {} m\n",
+        "{}: {}, {seconds:.0} s, {} segments; {}, gauge {} m\n",
         recording.name(),
-        runs.len(),
+        counted(runs.len(), "run"),
         found.segments,
         gauge.vehicle(),
         gauge.metres()
@@ -83,9 +84,9 @@ pub fn contradicted(text: &mut String, contradictions: &[Contradiction]) {
 pub fn turning(recording: &Recording, gauge: &Gauge, fit: &TurningFit) -> String {
     let found = &fit.found;
     let mut text = format!(
-        "{}: {} runs, {} segments; {}, gauge {} m\n\n",
+        "{}: {}, {} segments; {}, gauge {} m\n\n",
         recording.name(),
-        recording.runs().len(),
+        counted(recording.runs().len(), "run"),
         found.segments,
         gauge.vehicle(),
         gauge.metres()

@@ -4,6 +4,7 @@ use crate::wrapped::wrapped;
 use std::f64::consts::TAU;
 use std::fmt::Write;
 use trackdyn::Inspection;
+use trackdyn::crates::core::lines::counted;
 use trackdyn::inspect::{Content, Driving, Lack, Rows, Verdict};
 use trackdyn::recording::{PointsTable, Topic};
 
@@ -56,7 +57,7 @@ fn heading(found: &Inspection) -> String {
     match &found.content {
         Content::Motion(driving) => {
             let Driving { robot, runs, duration, .. } = &**driving;
-            let runs = if *runs == 1 { "1 run".to_owned() } else { format!("{runs} runs") };
+            let runs = counted(*runs, "run");
             let fingerprint = found.fingerprint.as_deref().unwrap_or_default();
             let line = format!("robot {robot}, {runs}, {duration:.0} s, fingerprint {fingerprint}");
             wrapped(&format!("{name}: "), &line)
@@ -175,7 +176,11 @@ fn late(tau: f64, error: Option<f64>, unknown: Option<&str>) -> String {
     if let Some(reason) = unknown {
         return format!("taken as equal: {reason}");
     }
-    let error = error.map_or_else(String::new, |of| format!(" (standard error {of:.3} s)"));
+    let error = match error {
+        Some(error) if error.is_finite() => format!(" (standard error {error:.3} s)"),
+        Some(_) => " (its error is not known)".to_owned(),
+        None => String::new(),
+    };
     format!("poses come {tau:.3} s after the tracks{error}")
 }
 
@@ -194,5 +199,19 @@ fn lacks(text: &mut String, lacks: &[Lack]) {
     *text += "\nwhat it lacks (docs/recording.md: how to record)\n";
     for lack in lacks {
         *text += &wrapped("  - ", &format!("{lack}: {}", lack.advice()));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_that_is_not_known_is_no_number() {
+        assert_eq!(
+            late(0.1, Some(f64::INFINITY), None),
+            "poses come 0.100 s after the tracks (its error is not known)"
+        );
+        assert!(late(0.1, Some(0.02), None).ends_with("(standard error 0.020 s)"));
     }
 }

@@ -5,6 +5,7 @@ use crate::wrapped::wrapped;
 use std::fmt::Write;
 use std::path::Path;
 use trackdyn::Odometry;
+use trackdyn::crates::core::lines::counted;
 use trackdyn::crates::estimate::odometry::comparison::{Component, SpanErrors};
 use trackdyn::crates::estimate::odometry::{Comparison, Estimate, Span};
 use trackdyn::odometry::{Advice, Compared};
@@ -16,15 +17,15 @@ pub fn text(odometry: &Odometry) -> String {
     let (recording, gauge) = (odometry.recording(), odometry.gauge());
     let _ = writeln!(
         text,
-        "{}, {} of {} runs, {:.0} s, {:.1} m",
+        "{}, {} of {}, {:.0} s, {:.1} m",
         recording.name(),
         result.paths.len(),
-        recording.runs().len(),
+        counted(recording.runs().len(), "run"),
         result.duration(),
         result.distance()
     );
     let _ = write!(text, "clock offset {:.3} s", clock.tau());
-    let _ = match clock.standard_error() {
+    let _ = match clock.standard_error().filter(|error| error.is_finite()) {
         Some(error) => write!(text, " (estimated, standard error {error:.3} s)"),
         None => write!(text, " ({})", clock.origin()),
     };
@@ -51,13 +52,13 @@ fn residuals(text: &mut String, result: &Comparison, segments: &SpanErrors, widt
     );
     let _ = writeln!(
         text,
-        "  {:width$}{:>16}{:>16}{:>16}",
+        "  {:width$} {:>15} {:>15} {:>15}",
         "parameters", "along [mm]", "across [mm]", "yaw [deg]"
     );
     for (set, errors) in result.sets.iter().zip(&segments.sets) {
         let _ = writeln!(
             text,
-            "  {:width$}{:>16}{:>16}{:>16}",
+            "  {:width$} {:>15} {:>15} {:>15}",
             short(set.name(), width),
             number(errors.along.rms, 1e3, 2),
             number(errors.across.rms, 1e3, 2),
@@ -70,7 +71,7 @@ fn residuals(text: &mut String, result: &Comparison, segments: &SpanErrors, widt
         };
         let _ = writeln!(
             text,
-            "  {:width$}{:>16}{:>16}{:>16}",
+            "  {:width$} {:>15} {:>15} {:>15}",
             format!("{}/ideal", short(set.name(), width - 6)),
             over(&errors.along),
             over(&errors.across),
@@ -87,14 +88,15 @@ fn drift(text: &mut String, odometry: &Odometry, span: &SpanErrors, width: usize
     let mean_distance = result.distance() / runs as f64;
     let _ = writeln!(
         text,
-        "\n  drift per metre over {} {}; error at the end, rms over {runs} runs of {:.1} m",
+        "\n  drift per metre over {} {}; error at the end, rms over {} of {:.1} m",
         span.count,
         pieces(span),
+        counted(runs, "run"),
         mean_distance
     );
     let _ = writeln!(
         text,
-        "  {:width$}{:>16}{:>16}{:>12}{:>12}",
+        "  {:width$} {:>15} {:>15} {:>11} {:>11}",
         "parameters", "position [mm/m]", "yaw [deg/m]", "end [m]", "end [deg]"
     );
     for (index, (set, errors)) in result.sets.iter().zip(&span.sets).enumerate() {
@@ -106,7 +108,7 @@ fn drift(text: &mut String, odometry: &Odometry, span: &SpanErrors, width: usize
         };
         let _ = writeln!(
             text,
-            "  {:width$}{:>16}{:>16}{place:>12.3}{:>12.2}",
+            "  {:width$} {:>15} {:>15} {place:>11.3} {:>11.2}",
             short(set.name(), width),
             per_metre(&errors.position, 1e3, 1),
             per_metre(&errors.yaw, 1.0_f64.to_degrees(), 2),

@@ -1,15 +1,16 @@
 //! The project's own format: a folder with `recording.toml` and one CSV per series.
 //!
 //! `tracks.csv` (`t,v_left,v_right`) and `poses.csv` (`t,x,y,yaw`) must be there, `imu.csv`
-//! (`t,gyro_z,acc_x,acc_y`) may. An integer column `run` splits all of them into runs. Further
+//! (`t,gyro_z,acc_x,acc_y`) may; where it is and `poses.csv` is not, its gyroscope tells the yaw. An integer column `run` splits all of them into runs. Further
 //! columns are kept. Where a CSV file is not there, a Parquet file of the same columns may be
 //! (`tracks.parquet`; needs the feature `parquet`).
 
-use crate::recording::{Recording, Source, UncheckedRun};
-use crate::sample::{Sample, Series, TrackSample};
+use crate::recording::{Recording, Source, UncheckedRun, Warning, headings};
+use crate::sample::{PoseSample, Sample, Series, TrackSample};
 use crate::{Error, Format, TableOptions};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use trackdyn_core::Pose;
 
 mod manifest;
 #[cfg(feature = "parquet")]
@@ -50,8 +51,11 @@ pub fn read_by(folder: &Path, options: &TableOptions) -> Result<Recording, Error
     let mut runs: BTreeMap<i64, UncheckedRun> = BTreeMap::new();
     let mut split = None;
     fill(&table(folder, "tracks"), &mut runs, &mut split, |run| &mut run.tracks)?;
-    fill(&table(folder, "poses"), &mut runs, &mut split, |run| &mut run.poses)?;
-    let imu = table(folder, "imu");
+    let (poses, imu) = (table(folder, "poses"), table(folder, "imu"));
+    let by_gyroscope = imu.exists() && !poses.exists();
+    if !by_gyroscope {
+        fill(&poses, &mut runs, &mut split, |run| &mut run.poses)?;
+    }
     if imu.exists() {
         fill(&imu, &mut runs, &mut split, |run| &mut run.imu)?;
     }
@@ -59,9 +63,28 @@ pub fn read_by(folder: &Path, options: &TableOptions) -> Result<Recording, Error
         Source { format: Format::Folder, path: Some(folder.to_owned()), ..Source::computed() };
     let mut runs: Vec<UncheckedRun> = runs.into_values().collect();
     options.apply(folder, &mut runs)?;
+    let mut warnings = Vec::new();
+    if by_gyroscope {
+        runs.iter_mut().for_each(turn_by_gyroscope);
+        let taken = format!("the yaw of the gyroscope in {}, without positions", imu.display());
+        warnings.push(Warning::Chosen { what: "poses", taken });
+    }
     let Manifest { name, robot, noise, pose_frame } = manifest;
-    Recording::accepting(name, robot, runs, source, Vec::new(), &options.accepted)
+    Recording::accepting(name, robot, runs, source, warnings, &options.accepted)
         .map(|recording| recording.with_stated_noise(noise).with_pose_frame(pose_frame))
+}
+
+/// Gives a run the yaw of its gyroscope for poses.
+fn turn_by_gyroscope(run: &mut UncheckedRun) {
+    let rates = run.imu.samples.iter().map(|reading| [reading.t, reading.gyro_z]);
+    let mut rates: Vec<[f64; 2]> =
+        rates.filter(|[t, rate]| t.is_finite() && rate.is_finite()).collect();
+    rates.sort_by(|[a, _], [b, _]| a.total_cmp(b));
+    let poses = rates.iter().zip(headings(&rates)).map(|([t, _], yaw)| {
+        let pose = Pose::new(f64::NAN, f64::NAN, yaw);
+        PoseSample { t: *t, pose }
+    });
+    run.poses.samples = poses.collect();
 }
 
 /// The CSV file of a table, or the Parquet file where only that is there.

@@ -41,6 +41,31 @@ fn findings(recording: &Recording) -> Vec<(Stream, Finding, usize)> {
     recording.warnings().iter().filter_map(of).collect()
 }
 
+/// Where there are no poses, the gyroscope tells the yaw, as that of a bag does.
+#[test]
+fn a_folder_with_a_gyroscope_alone_has_a_yaw() {
+    let row = |k: u32| {
+        let t = 0.1 * f64::from(k);
+        (format!("{t},0.1,{}\n", 0.1 + 0.02 * t), format!("{t},{},0,0\n", 0.04 * t))
+    };
+    let (tracks, imu): (Vec<String>, Vec<String>) = (0..100).map(row).unzip();
+    let (tracks, imu) = (tracks.concat(), imu.concat());
+    let files = [
+        ("recording.toml", MANIFEST),
+        ("tracks.csv", &format!("t,v_left,v_right\n{tracks}")),
+        ("imu.csv", &format!("t,gyro_z,acc_x,acc_y\n{imu}")),
+    ];
+    let recording = folder::read(folder_of(&files).path()).expect("accepted");
+    assert!(!recording.has_positions());
+    let last = recording.runs()[0].poses()[99];
+    // ψ = 0.02 t²
+    assert!((last.pose.yaw - 0.02 * last.t * last.t).abs() < 1e-9, "{last:?}");
+    let chosen = |warning: &Warning| warning.to_string().contains("yaw of the gyroscope");
+    assert!(recording.warnings().iter().any(chosen), "{:?}", recording.warnings());
+    // neither poses nor a gyroscope
+    assert!(refusal(MANIFEST, TRACKS, "").contains("poses.csv"));
+}
+
 #[test]
 fn a_plain_recording_is_read_without_a_word() {
     let recording = read(MANIFEST, TRACKS, POSES).expect("accepted");

@@ -1,31 +1,21 @@
 //! Yaw from a gyroscope, where a bag has no poses.
 
 use super::Received;
+use crate::recording;
 use crate::rosbag::date::seconds;
 
 /// The yaw, from 0 on, that the yaw rates of an IMU add up to; positions are no numbers. `imu`
 /// holds the yaw rate, rad/s, and the specific forces.
-///
-/// Δψ = ∫ ω dt by the trapezoidal rule
-///
-/// # Assumes
-/// The bias of the gyroscope, which is not removed here, is found by who fits the yaw.
 pub(super) fn headings(imu: &[Received<[f64; 3]>]) -> Vec<Received<[f64; 3]>> {
     let at = |reading: &Received<[f64; 3]>| reading.stamp_ns.unwrap_or(reading.log_ns);
-    let mut readings: Vec<&Received<[f64; 3]>> = imu.iter().collect();
+    let finite = imu.iter().filter(|reading| reading.value[0].is_finite());
+    let mut readings: Vec<&Received<[f64; 3]>> = finite.collect();
     readings.sort_by_key(|reading| at(reading));
-    let mut yaw = 0.0;
-    let mut before: Option<&Received<[f64; 3]>> = None;
-    let mut headings = Vec::with_capacity(readings.len());
-    for reading in readings.into_iter().filter(|reading| reading.value[0].is_finite()) {
-        if let Some(before) = before {
-            let interval = seconds(at(before), at(reading));
-            yaw += interval * f64::midpoint(before.value[0], reading.value[0]);
-        }
-        headings.push(Received { value: [f64::NAN, f64::NAN, yaw], ..*reading });
-        before = Some(reading);
-    }
-    headings
+    let Some(start) = readings.first().map(|reading| at(reading)) else { return Vec::new() };
+    let rate = |reading: &&Received<[f64; 3]>| [seconds(start, at(reading)), reading.value[0]];
+    let rates: Vec<[f64; 2]> = readings.iter().map(rate).collect();
+    let turned = readings.into_iter().zip(recording::headings(&rates));
+    turned.map(|(reading, yaw)| Received { value: [f64::NAN, f64::NAN, yaw], ..*reading }).collect()
 }
 
 #[cfg(test)]

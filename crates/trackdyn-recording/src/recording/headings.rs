@@ -1,0 +1,33 @@
+//! Yaw from a gyroscope, where nothing else has poses.
+
+/// The yaw, from 0 on, at each of these yaw rates, in rad: pairs (s, rad/s) in the order of time.
+///
+/// Δψ = ∫ ω dt by the trapezoidal rule
+///
+/// # Assumes
+/// The bias of the gyroscope, which is not removed here, is found by who fits the yaw.
+pub(crate) fn headings(rates: &[[f64; 2]]) -> Vec<f64> {
+    let mut yaw = 0.0;
+    let turns = rates.windows(2).map(|pair| {
+        let [[start, first], [end, last]] = [pair[0], pair[1]];
+        yaw += (end - start) * f64::midpoint(first, last);
+        yaw
+    });
+    std::iter::once(0.0).chain(turns).take(rates.len()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn yaw_is_the_integral_of_the_yaw_rate() {
+        // ω = 0.2 t at 10 Hz: ψ = 0.1 t²
+        let rates: Vec<[f64; 2]> =
+            (0..=50).map(|k| [0.1 * f64::from(k), 0.02 * f64::from(k)]).collect();
+        let found = headings(&rates);
+        assert_eq!(found.len(), 51);
+        assert!((found[50] - 2.5).abs() < 1e-9 && found[0] == 0.0);
+        assert!(headings(&[]).is_empty());
+    }
+}

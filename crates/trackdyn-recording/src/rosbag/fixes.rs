@@ -86,11 +86,16 @@ pub(super) fn changes(yaws: &[Yaw]) -> bool {
 }
 
 /// Poses (east, north, yaw) at the fixes that a yaw is known at, and the number of others. Fixes
-/// and yaws with their times, ns, in the order of these.
+/// and yaws with their times, ns, in the order of these. `mount` is the heading of the IMU on the
+/// robot, rad: the yaw is left as measured, and is compared with the course without it.
 ///
 /// # Errors
 /// A yaw that is not that of the course.
-pub(super) fn poses(fixes: &[(i64, Fix)], yaws: &[(i64, f64)]) -> Result<(Poses, u64), String> {
+pub(super) fn poses(
+    fixes: &[(i64, Fix)],
+    yaws: &[(i64, f64)],
+    mount: f64,
+) -> Result<(Poses, u64), String> {
     let Some(origin) = fixes.first().map(|(_, fix)| fix.value) else { return Ok((Vec::new(), 0)) };
     let mut left_out = 0;
     let mut found = Vec::new();
@@ -105,7 +110,7 @@ pub(super) fn poses(fixes: &[(i64, Fix)], yaws: &[(i64, f64)]) -> Result<(Poses,
         let [x, y] = east_north(origin, [latitude, longitude, altitude]);
         found.push(Received { stamp_ns: fix.stamp_ns, log_ns: fix.log_ns, value: [x, y, yaw] });
     }
-    check_course(&found)?;
+    check_course(&found, mount)?;
     Ok((found, left_out))
 }
 
@@ -125,7 +130,7 @@ fn yaw_at(yaws: &[(i64, f64)], time: i64) -> Option<f64> {
 }
 
 /// Compares yaw and course where the robot drives straight, forward or backward.
-fn check_course(poses: &[Received<[f64; 3]>]) -> Result<(), String> {
+fn check_course(poses: &[Received<[f64; 3]>], mount: f64) -> Result<(), String> {
     let (mut cos, mut sin, mut count) = (0.0, 0.0, 0_u32);
     let mut start: Option<[f64; 3]> = None;
     for pose in poses {
@@ -138,7 +143,7 @@ fn check_course(poses: &[Received<[f64; 3]>]) -> Result<(), String> {
             start = Some(pose.value);
         } else if (x - x0).hypot(y - y0) >= COURSE_LENGTH {
             // The doubled angle is that of driving forward and of driving backward.
-            let offset = (y - y0).atan2(x - x0) - (yaw0 + wrapped(yaw - yaw0) / 2.0);
+            let offset = (y - y0).atan2(x - x0) - (yaw0 - mount + wrapped(yaw - yaw0) / 2.0);
             cos += (2.0 * offset).cos();
             sin += (2.0 * offset).sin();
             count += 1;
@@ -154,9 +159,12 @@ fn check_course(poses: &[Received<[f64; 3]>]) -> Result<(), String> {
         return Err(format!("its yaw does not follow the course of the fixes: {expected}"));
     }
     if offset.abs() > MAX_COURSE_OFFSET {
-        let degrees = -offset.to_degrees();
+        // Which way is forward, the course does not say: tracks that contradict the poses do.
+        let [off, other] = [mount - offset, mount - offset + PI].map(|of| wrapped(of).to_degrees());
         return Err(format!(
-            "its yaw is off the course of the fixes by {degrees:.0} degrees: {expected}"
+            "its yaw is off the course of the fixes by {off:.0} or {other:.0} degrees: {expected}; \
+             --mount-yaw {off:.0} takes it back, --mount-yaw {other:.0} where the tracks then say \
+             that the robot drives backwards"
         ));
     }
     Ok(())
@@ -204,7 +212,7 @@ mod tests {
     #[test]
     fn poses_are_those_of_the_drive() {
         let (fixes, yaws, truth) = drive(wrapped);
-        let (poses, left_out) = poses(&fixes, &yaws).expect("poses");
+        let (poses, left_out) = poses(&fixes, &yaws, 0.0).expect("poses");
         assert_eq!((poses.len(), left_out), (truth.len(), 0));
         for (pose, [x, y, yaw]) in poses.iter().zip(truth) {
             // the plane bends away by less than a millimetre over these 100 m
@@ -221,21 +229,26 @@ mod tests {
     fn a_compass_and_an_arbitrary_zero_are_refused() {
         let refused = |reported: fn(f64) -> f64| {
             let (fixes, yaws, _) = drive(reported);
-            poses(&fixes, &yaws).expect_err("refused")
+            poses(&fixes, &yaws, 0.0).expect_err("refused")
         };
         assert!(refused(|yaw| PI / 2.0 - yaw).contains("does not follow"));
         let text = refused(|yaw| yaw - 1.0);
-        assert!(text.contains("off the course of the fixes by -5"), "{text}");
+        assert!(text.contains("by -58 or 122 degrees"), "{text}");
+        assert!(text.contains("--mount-yaw -58 takes it back"), "{text}");
+        // which leaves the yaw as it is
+        let (fixes, yaws, truth) = drive(|yaw| yaw - 1.0);
+        let (found, _) = poses(&fixes, &yaws, (-58.0_f64).to_radians()).expect("poses");
+        assert!(wrapped(found[0].value[2] + 1.0 - truth[0][2]).abs() < 1e-12);
         // backward all the time
         let (fixes, yaws, _) = drive(|yaw| yaw + PI);
-        assert!(poses(&fixes, &yaws).is_ok());
+        assert!(poses(&fixes, &yaws, 0.0).is_ok());
     }
 
     #[test]
     fn fixes_without_a_yaw_nearby_are_left_out() {
         let (fixes, mut yaws, _) = drive(|yaw| yaw);
         yaws.retain(|(time, _)| !(100..150).contains(&(time / 100_000_000)));
-        let (poses, left_out) = poses(&fixes, &yaws).expect("poses");
+        let (poses, left_out) = poses(&fixes, &yaws, 0.0).expect("poses");
         assert_eq!((poses.len(), left_out), (fixes.len() - 25, 25));
     }
 

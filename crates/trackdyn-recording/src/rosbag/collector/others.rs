@@ -8,7 +8,7 @@ use crate::rosbag::clock::{Clock, decide};
 use crate::rosbag::date::Received;
 use crate::rosbag::fixes::{self, Fix, Yaw};
 use crate::rosbag::message::{fix, header, oriented_pose};
-use crate::rosbag::options::Dating;
+use crate::rosbag::options::RosbagOptions;
 use crate::rosbag::payload::{Payload, PayloadError};
 use crate::rosbag::topic::{Layout, Topic, list};
 use crate::rosbag::{path, twist};
@@ -145,7 +145,7 @@ impl Collector<'_> {
             if !is_named(&name) && (!self.poses.is_empty() || frames_are_named) {
                 continue;
             }
-            match located(&name, &fixes, &self.yaws, self.options.dated_by, warnings) {
+            match located(&name, &fixes, &self.yaws, self.options, warnings) {
                 Ok(poses) => {
                     let (parent, child) = (TANGENT_PLANE.to_owned(), String::new());
                     self.poses.insert(PoseKey { topic: name, parent, child }, poses);
@@ -190,7 +190,7 @@ fn located(
     topic: &str,
     fixes: &[Fix],
     yaws: &BTreeMap<String, Vec<Yaw>>,
-    dating: Dating,
+    options: &RosbagOptions,
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Received<[f64; 3]>>, String> {
     let changing: Vec<(&String, &Vec<Yaw>)> =
@@ -211,7 +211,7 @@ fn located(
         }
     };
     let clocks = [Clock::of(topic, fixes), Clock::of(imu, yaws)];
-    let (by, told) = decide(&clocks, dating);
+    let (by, told) = decide(&clocks, options.dated_by);
     warnings.extend(told);
     let mut known: Vec<(i64, f64)> =
         yaws.iter().filter_map(|yaw| Some((clocks[1].date(by, yaw)?, yaw.value))).collect();
@@ -219,8 +219,9 @@ fn located(
     let mut dated: Vec<(i64, Fix)> =
         fixes.iter().filter_map(|fix| Some((clocks[0].date(by, fix)?, *fix))).collect();
     dated.sort_by_key(|(time, _)| *time);
-    let (poses, left_out) =
-        fixes::poses(&dated, &known).map_err(|problem| format!("{positions}; {imu}: {problem}"))?;
+    let mount = options.mount_yaw.unwrap_or_default();
+    let (poses, left_out) = fixes::poses(&dated, &known, mount)
+        .map_err(|problem| format!("{positions}; {imu}: {problem}"))?;
     if left_out > 0 {
         let (topic, reason) = (topic.to_owned(), format!("{imu} has no yaw at its time"));
         warnings.push(Warning::MessagesSkipped { topic, count: left_out, reason });

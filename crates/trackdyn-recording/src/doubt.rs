@@ -230,7 +230,7 @@ impl fmt::Display for Doubt {
             Self::Swapped => write!(
                 f,
                 "tracks and poses turn in opposite senses: left and right are swapped, or the z \
-                 axis of the poses points down"
+                 axis of the poses, or of their gyroscope, points down"
             ),
             Self::Backwards => write!(
                 f,

@@ -15,7 +15,7 @@
 //! base_link.
 
 use crate::doubt::Doubt;
-use crate::recording::{BagNames, Recording, Source, turn_sensor};
+use crate::recording::{BagNames, Recording, Source, UncheckedRun, turn_sensor};
 use crate::unit::{self, SpeedUnit};
 use crate::{Error, Format};
 use std::path::Path;
@@ -88,11 +88,21 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
     let is_in_radians = options.speed_unit.is_none_or(|unit| unit == SpeedUnit::RadiansPerSecond);
     let radius = radius.filter(|_| is_in_radians);
     let are_joints = options.twist_topic.is_none();
+    let is_gyroscope = collected.runs.iter().all(is_yaw_alone);
     let kind = if options.left_signals.is_empty() { "joint" } else { "signal" };
     Recording::accepting(name, "unknown", collected.runs, source, warnings, &options.accepted)
-        .map_err(
-            |error| if are_joints { with_options(error, &joints, kind, radius) } else { error },
-        )
+        .map_err(|error| {
+            if are_joints {
+                with_options(error, &joints, kind, radius, is_gyroscope)
+            } else {
+                error
+            }
+        })
+}
+
+/// Whether a run has no positions.
+fn is_yaw_alone(run: &UncheckedRun) -> bool {
+    run.poses.samples.iter().all(|sample| !sample.pose.x.is_finite())
 }
 
 impl BagNames {
@@ -107,12 +117,13 @@ impl BagNames {
 }
 
 /// An error with the options that help, by the joints of each side as they were taken and, where
-/// these are wheels, their radius, m.
+/// these are wheels, their radius, m. `is_yaw_alone` says that the poses are those of a gyroscope.
 fn with_options(
     error: Error,
     taken: &PerSide<Vec<String>>,
     kind: &str,
     radius: Option<f64>,
+    is_yaw_alone: bool,
 ) -> Error {
     let Error::Contradiction { path, doubt, remedy, .. } = error else { return error };
     if let Doubt::Travel { ratio, .. } = doubt
@@ -151,8 +162,14 @@ fn with_options(
         Doubt::Swapped => {
             let joints = PerSide::new(taken.right.clone(), taken.left.clone());
             let [left, right] = Side::BOTH.map(|side| option(side, &joints[side]));
-            let remedy =
-                format!("swap the sides by {left} {right}, or choose poses whose z axis points up");
+            let remedy = if is_yaw_alone {
+                format!(
+                    "the gyroscope is upside down, or the sides are swapped: either way, \
+                     {left} {right} give the same distance of the ICRs"
+                )
+            } else {
+                format!("swap the sides by {left} {right}, or choose poses whose z axis points up")
+            };
             (Some(joints), remedy)
         }
         Doubt::Backwards => {

@@ -89,21 +89,37 @@ fn odometry() -> Bag {
     bag
 }
 
-/// Poses of the driver whose speeds are taken are none: what is suggested is the gyroscope.
-#[test]
-fn beside_speeds_of_a_driver_the_gyroscope_is_suggested_and_not_its_poses() {
-    let mut bag = odometry();
+/// Adds a gyroscope that counts so many radians for one, of a robot that slips.
+fn turn(bag: &mut Bag, sign: f64) {
     for t in times(50) {
         let PerSide { left, right } = speeds(t).map(|speed| RADIUS * speed);
         let mut cdr = Message::new(at(t).1, "imu");
         cdr.numbers(&[0.0, 0.0, 0.0, 1.0, -1.0]);
         cdr.numbers(&[0.0; 8]);
-        cdr.numbers(&[0.0, 0.0, (right - left) / (1.5 * SEPARATION)]);
+        cdr.numbers(&[0.0, 0.0, sign * (right - left) / (1.5 * SEPARATION)]);
         cdr.numbers(&[0.0; 9]);
         cdr.numbers(&[0.0, 0.0, 9.8]);
         cdr.numbers(&[0.0; 9]);
         bag.message(at(t).0, "/imu", "sensor_msgs/msg/Imu", cdr);
     }
+}
+
+/// Sides that have names are right more often than a gyroscope is.
+#[test]
+fn a_gyroscope_that_counts_backwards_is_told_to_be_upside_down() {
+    let mut bag = wheels(PerSide::new(1.0, 1.0));
+    turn(&mut bag, -1.0);
+    let found = inspected(bag);
+    let told = |of: &Finding| matches!(of, Finding::Mended(text) if text.contains("upside down"));
+    assert!(found.findings.iter().any(told), "{:?}", found.findings);
+    assert_eq!(found.options.bag.left_joints, ["right_wheel"]);
+}
+
+/// Poses of the driver whose speeds are taken are none: what is suggested is the gyroscope.
+#[test]
+fn beside_speeds_of_a_driver_the_gyroscope_is_suggested_and_not_its_poses() {
+    let mut bag = odometry();
+    turn(&mut bag, 1.0);
     let (_folder, path) = bag.write();
     let found = inspect(&path, &InspectSettings::default()).expect("a bag");
     let mut options = found.options;

@@ -31,7 +31,7 @@ impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Reading(warning) => warning.fmt(f),
-            Self::Mended(reason) => write!(f, "{reason} (the commands below do so)"),
+            Self::Mended(reason) => write!(f, "mended in the commands below: {reason}"),
             Self::Unread(reason) => f.write_str(reason),
             Self::Clock(error) => error.fmt(f),
             Self::Fit(contradiction) => contradiction.fmt(f),

@@ -3,7 +3,7 @@
 //! A driver that reports at 4 Hz, logged at 20 Hz, repeats each value four times: the recorded
 //! speed is a staircase, the belt's is none. A fitted drive lag would smooth it. Where values
 //! change at even times several readings apart, a line leads from one to the next. A value that
-//! stays for longer was confirmed at each update, so the line begins one interval before the change.
+//! stays for longer was confirmed at each update: the line begins one interval before the change.
 
 use crate::settings;
 use trackdyn_core::{PerSide, Side};

@@ -48,7 +48,7 @@ pub struct Odometry {
     pub comparison: Comparison,
     /// The clock offset, and where it comes from.
     pub clock: Clock,
-    /// What contradicts itself in all of the recording: no parameters are judged by such driving.
+    /// What contradicts itself in all of the recording. Wheel odometry judges no parameters.
     pub contradictions: Vec<Contradiction>,
     replayed: Vec<Replayed>,
     physics_stopped: Option<String>,

@@ -1,6 +1,7 @@
 //! Which of the parameters that were replayed to take.
 
 use super::{Odometry, Replayed};
+use trackdyn_estimate::Contradiction;
 use trackdyn_estimate::odometry::{Estimate, ParameterSet};
 use trackdyn_model::VehicleFile;
 
@@ -73,7 +74,8 @@ pub(super) fn of(odometry: &Odometry) -> Advice {
                       a vehicle";
         return undecided(reason.to_owned());
     }
-    if let Some(contradiction) = odometry.contradictions.first() {
+    let is_computed = |of: &&Contradiction| matches!(of, Contradiction::WheelOdometry { .. });
+    if let Some(contradiction) = odometry.contradictions.iter().find(is_computed) {
         return undecided(contradiction.to_string());
     }
     let is_fitted = |one: &&Replayed| !odometry.is_held_out(one.parameters.source());

@@ -1,9 +1,9 @@
 //! The project's own format: a folder with `recording.toml` and one CSV per series.
 //!
-//! `tracks.csv` (`t,v_left,v_right`) must be there, and `poses.csv` (`t,x,y,yaw`) or, whose gyroscope
-//! tells the yaw alone, `imu.csv` (`t,gyro_z,acc_x,acc_y`). An integer column `run` splits all of
-//! them into runs. Further columns are kept. Where a CSV file is not there, a Parquet file of the
-//! same columns may be (`tracks.parquet`; needs the feature `parquet`).
+//! `tracks.csv` (`t,v_left,v_right`) must be there, and `poses.csv` (`t,x,y,yaw`) or `imu.csv`
+//! (`t,gyro_z,acc_x,acc_y`), whose gyroscope alone tells the yaw. An integer column `run` splits
+//! all of them into runs. Further columns are kept. Where a CSV file is not there, a Parquet file
+//! of the same columns may be (`tracks.parquet`; needs the feature `parquet`).
 
 use crate::recording::{Recording, Source, UncheckedRun, Warning, headings};
 use crate::sample::{PoseSample, Sample, Series, TrackSample};

@@ -96,7 +96,9 @@ pub fn with_own_starts(evidence: &Weighted, hypothesis: &Hypothesis) -> Option<W
         let mechanics = Mechanics::beside(before, hypothesis, &[], &seen);
         let mut columns = mechanics.by_starts(&instruments, &seen)?;
         for (column, deviation) in columns.iter_mut().zip(deviations.iter()) {
-            column.iter_mut().for_each(|value| *value *= *deviation);
+            for value in column.iter_mut() {
+                *value *= *deviation;
+            }
         }
         Some((seen, mechanics, columns))
     };

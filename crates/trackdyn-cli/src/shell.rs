@@ -1,5 +1,6 @@
 //! Command lines for a user to copy.
 
+use trackdyn::crates::core::rounding::Digits;
 use trackdyn::recording::{Dating, JointSignal, SpeedUnit};
 use trackdyn::{Part, ReadOptions};
 
@@ -90,8 +91,7 @@ pub fn reading(options: &ReadOptions, needs_radius: bool) -> Vec<String> {
 
 /// An angle in degrees as it was typed: without what its way to radians and back adds.
 fn degrees(angle: f64) -> f64 {
-    const PER_DEGREE: f64 = 1e9;
-    (PER_DEGREE * angle.to_degrees()).round() / PER_DEGREE
+    Digits::Decimals(9).round(angle.to_degrees())
 }
 
 /// The options that take a part of a recording.

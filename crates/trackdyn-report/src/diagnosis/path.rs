@@ -138,8 +138,8 @@ fn drawn(subject: &Subject, replay: &Replay) -> Figure {
     let held_out = if replay.is_held_out { ", held out of the fit" } else { "" };
     let title = format!("Dead reckoning of run {}{held_out}", replay.run);
     let explanation = "Where the recorded track speeds alone lead, from the first observed pose \
-                       on: with the vehicle file as it is, and as the diagnosis corrects it. Both \
-                       use the recording's own clock offset.";
+                       on: with the vehicle file as it is, and as the diagnosis corrects it, each \
+                       at the clock offset that suits its turning best.";
     let mut figure = sheet::sheet("path", HEIGHT, &title, explanation, subject.caption);
     let line = |entry: usize| Swatch::Line(entry_colour(entry), 5.0);
     let entries = [

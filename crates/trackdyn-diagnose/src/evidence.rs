@@ -12,6 +12,7 @@ mod ticks;
 use crate::settings::Settings;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 use std::sync::Arc;
 use trackdyn_core::{PerSide, Pose, Twist};
 use trackdyn_estimate::gyroscope::{Gyroscope, Unfit};
@@ -40,6 +41,24 @@ pub struct Sample {
     pub acceleration: PerSide<f64>,
     /// Whether its first pose is the last one of the sample before it.
     pub follows: bool,
+}
+
+/// The samples of each run, by their indices.
+pub(crate) fn run_ranges(samples: &[Sample]) -> impl Iterator<Item = Range<usize>> + '_ {
+    samples.chunk_by(|a, b| a.run == b.run).scan(0, |end, run| {
+        let begin = *end;
+        *end += run.len();
+        Some(begin..*end)
+    })
+}
+
+/// Readings of a run with these speeds of each track at each reading, m/s.
+fn with_speeds(run: &[TrackSample], speeds: &PerSide<Vec<f64>>) -> Vec<TrackSample> {
+    let of_sides = speeds.left.iter().zip(&speeds.right);
+    let readings = run.iter().zip(of_sides);
+    readings
+        .map(|(reading, (&v_left, &v_right))| TrackSample { v_left, v_right, ..*reading })
+        .collect()
 }
 
 /// Kind of samples, with their noise measured without a model.

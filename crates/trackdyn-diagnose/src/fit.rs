@@ -10,6 +10,7 @@ use crate::mechanics::{Instruments, Mechanics, is_instrument};
 use crate::normal::{Prior, Solution};
 use crate::prior::priors;
 use crate::settings;
+use crate::starts::{self, Begun};
 use crate::weighted::Weighted;
 use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
@@ -150,7 +151,10 @@ impl Point {
             f64::INFINITY
         } else {
             // min of ∞ and NaN is ∞
-            (evidence.loss(&residual) + penalty(&hypothesis, unknowns, evidence)).min(f64::INFINITY)
+            let of_starts = |starts| starts::penalty(evidence, &hypothesis, starts);
+            let of_starts = mechanics.starts().map_or(0.0, of_starts);
+            let of_unknowns = penalty(&hypothesis, unknowns, evidence);
+            (evidence.loss(&residual) + of_unknowns + of_starts).min(f64::INFINITY)
         };
         Self { hypothesis, mechanics, prediction, residual, objective }
     }
@@ -209,6 +213,39 @@ impl Fit {
             let better = |point: &Point| point.objective < fit.objective;
             let Some(point) = std::iter::once(whole).chain(parts).find(better) else { break };
             fit = Self::linearised(point, unknowns, evidence);
+        }
+        fit
+    }
+
+    /// The fit in which runs begin in the motions that suit its own hypothesis; itself where the
+    /// evidence has stationary beginnings.
+    ///
+    /// The evidence allows for beginnings as they suit another hypothesis, to first order. Here,
+    /// unknowns are fitted beside what beginnings may explain of this one, and beginnings beside
+    /// the unknowns, in turn. The objective remains that of the evidence.
+    pub fn with_own_starts(self, evidence: &Weighted) -> Self {
+        let mut fit = self;
+        let settings = evidence.settings();
+        if evidence.starts().is_none() {
+            return fit;
+        }
+        let begun = |fit: &Self| starts::begun(evidence, &fit.hypothesis, Some(&fit.mechanics));
+        let Some(mut here) = begun(&fit) else { return fit };
+        for _ in 0..settings.evidence.start_repeats {
+            let Begun { hypothesis, mechanics, by_starts } = here;
+            let own = evidence.allowing_for_starts(by_starts);
+            let moved = Self::new(hypothesis, &fit.unknowns, &own, Some(&mechanics));
+            let Some(there) = begun(&moved) else { break };
+            let before = Some(&there.mechanics);
+            let next = Self::new(there.hypothesis.clone(), &fit.unknowns, evidence, before);
+            let fall = fit.objective - next.objective;
+            if fall > 0.0 {
+                fit = next;
+            }
+            if fall < settings.evidence.min_fall_by_starts {
+                break;
+            }
+            here = there;
         }
         fit
     }

@@ -1,6 +1,9 @@
 //! A hypothesis: a vehicle, effects with their sizes, and constant offsets of the ICRs.
 
+use crate::evidence::{Evidence, Sample};
 use crate::settings;
+use std::sync::Arc;
+use trackdyn_core::Twist;
 use trackdyn_model::effect::{Card, Parameter, Role};
 use trackdyn_model::{ActiveEffect, EffectId, Effects, Vehicle, VehicleFile};
 
@@ -21,6 +24,22 @@ pub struct Hypothesis {
     pub cog_moved: [f64; 2],
     /// Largest |friction_level|.
     pub max_friction_change: f64,
+    /// Motions with which runs begin, where they were found for this hypothesis.
+    pub starts: Option<Starts>,
+}
+
+/// Departure of the twist (paper's frame) from the stationary one with which each run of some
+/// samples begins.
+#[derive(Clone, Debug)]
+pub struct Starts {
+    samples: Arc<[Sample]>,
+    twists: Arc<[Twist]>,
+}
+
+impl PartialEq for Starts {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.samples, &other.samples) && self.twists == other.twists
+    }
 }
 
 /// A free number of a hypothesis.
@@ -92,7 +111,29 @@ impl Hypothesis {
         let VehicleFile { vehicle, effects, .. } = file.clone();
         let settings::Prior { max_friction_change, .. } = *settings;
         let (offset, cog_moved) = ([0.0; 3], [0.0; 2]);
-        Self { vehicle, effects, offset, friction_level: 0.0, cog_moved, max_friction_change }
+        Self {
+            vehicle,
+            effects,
+            offset,
+            friction_level: 0.0,
+            cog_moved,
+            max_friction_change,
+            starts: None,
+        }
+    }
+
+    /// Departure of the twist (paper's frame) from the stationary one with which each run of this
+    /// evidence begins; none where all begin in stationary motion.
+    pub fn starts_in<'a>(&'a self, evidence: &'a Evidence) -> Option<&'a Arc<[Twist]>> {
+        let is_of = |own: &&Starts| Arc::ptr_eq(&own.samples, evidence.shared_samples());
+        let own = self.starts.as_ref().filter(is_of);
+        own.map(|own| &own.twists).or_else(|| evidence.starts())
+    }
+
+    /// The hypothesis in which the runs of this evidence begin with these departures.
+    pub fn beginning(&self, evidence: &Evidence, twists: Vec<Twist>) -> Self {
+        let samples = Arc::clone(evidence.shared_samples());
+        Self { starts: Some(Starts { samples, twists: twists.into() }), ..self.clone() }
     }
 
     /// Allowed range of an unknown.

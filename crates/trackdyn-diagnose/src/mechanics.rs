@@ -256,7 +256,8 @@ impl Mechanics {
         if inert.is_empty() || matches!(evidence.origin(), Origin::SteadyPoints(_)) {
             return Self { ground, ..still };
         }
-        let case = Case { vehicle, model: &simple, largest, drive: &drive, evidence };
+        let starts = hypothesis.starts_in(evidence);
+        let case = Case { vehicle, model: &simple, largest, drive: &drive, starts, evidence };
         // Where the transient simulation fails, the departure of a similar hypothesis is taken.
         let known = before.and_then(|before| before.in_time.inertia());
         let in_time = match (inertia(inert, &case), known) {
@@ -294,6 +295,12 @@ impl Mechanics {
             (None, None) => true,
             _ => false,
         }
+    }
+
+    /// Departure of the twist (paper's frame) from the stationary one with which each run begins;
+    /// none without inertia, or where all begin in stationary motion.
+    pub fn starts(&self) -> Option<&[Twist]> {
+        self.in_time.inertia().and_then(InertiaNear::starts)
     }
 
     /// Why the hypothesis is impossible: over a large share of the speeds it tips over or no
@@ -352,9 +359,7 @@ impl Mechanics {
             })
             .collect()
     }
-}
 
-impl Mechanics {
     /// Derivative of the motion of each sample, as reported by the pose sensor, by each axis of the
     /// twist (paper's frame) with which its run begins; none without inertia, or where its
     /// simulation fails.

@@ -23,6 +23,7 @@
 
 mod flexible;
 
+use crate::evidence::run_ranges;
 use crate::fit::Fit;
 use crate::progress::{Cancelled, Watch};
 use crate::weighted::Weighted;
@@ -136,7 +137,7 @@ fn is_quieter(evidence: &Weighted, again: &Weighted) -> Option<bool> {
 /// Mean duration of a run with samples, s; none without samples.
 fn run_time(evidence: &Weighted) -> Option<f64> {
     let samples = evidence.samples();
-    let runs = samples.chunk_by(|a, b| a.run == b.run).count();
+    let runs = run_ranges(samples).count();
     let time: f64 = samples.iter().map(|sample| sample.duration).sum();
     (runs > 0).then(|| time / real(runs))
 }

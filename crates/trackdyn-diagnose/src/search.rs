@@ -371,6 +371,14 @@ impl Search {
         best
     }
 
+    /// A hypothesis whose runs begin in the motions that suit it best.
+    pub fn with_own_starts(&self, found: Found) -> Found {
+        if self.evidence.starts().is_none() {
+            return found;
+        }
+        self.found(found.effects, found.fit.with_own_starts(&self.evidence))
+    }
+
     /// The hypothesis without one of its added effects, refitted from there: the base itself may be
     /// a worse local minimum.
     pub fn without(&self, found: &Found, effect: EffectId) -> Found {
@@ -386,6 +394,9 @@ impl Search {
         let before = Some(&self.base.fit.mechanics);
         let fit = Fit::new(hypothesis, &unknowns, &self.evidence, before);
         let without = self.recalibrated(effects, fit);
+        let rise = without.fit.objective / found.fit.objective - 1.0;
+        let may_be_near = rise < self.settings().search.max_rise_by_starts;
+        let without = if may_be_near { self.with_own_starts(without) } else { without };
         let is_further = self.base.fit.objective <= without.fit.objective;
         if is_base && is_further { self.nothing() } else { without }
     }
@@ -493,7 +504,7 @@ impl Search {
                 .max_by(|a, b| value(a).total_cmp(&value(b)).then(b.effects.cmp(&a.effects)));
             match next {
                 Some(next) if value(&next) > value(&best) + settings.min_round_gain => {
-                    best = self.with_best_calibration(next);
+                    best = self.with_own_starts(self.with_best_calibration(next));
                 }
                 _ => break,
             }

@@ -17,10 +17,12 @@
 //! beginnings may explain.
 
 use crate::equations::Column;
+use crate::evidence::{Evidence, run_ranges};
 use crate::hypothesis::Hypothesis;
 use crate::mechanics::{Instruments, Mechanics};
+use crate::normal::{Columns, Normal, Prior, Solution};
 use crate::weighted::Weighted;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use std::ops::Range;
 use trackdyn_core::Twist;
 
@@ -33,92 +35,124 @@ struct Start {
     objective: f64,
     step: Vector3<f64>,
     promise: f64,
-    /// The start that is tried.
-    tried: Vector3<f64>,
 }
 
 impl Start {
+    /// The start that is tried.
+    fn tried(&self) -> Vector3<f64> {
+        self.best + self.step
+    }
+
     /// Takes or rejects the start that was tried, by the whitened residual there and its
     /// derivatives.
     fn judged(&mut self, evidence: &Weighted, residual: &[Vector3<f64>], columns: &[Column; 3]) {
         let residual = &residual[self.samples.clone()];
-        let objective = evidence.loss(residual) + self.tried.norm_squared();
+        let tried = self.tried();
+        let objective = evidence.loss(residual) + tried.norm_squared();
         if objective >= self.objective || !objective.is_finite() {
             self.step /= 2.0;
             self.promise /= 2.0;
-            self.tried = self.best + self.step;
             return;
         }
-        let columns = columns.each_ref().map(|column| &column[self.samples.clone()]);
-        let weights = evidence.weights(residual);
-        let product = |x: &[Vector3<f64>], y: &[Vector3<f64>]| -> f64 {
-            x.iter().zip(y).zip(&weights).map(|((x, y), weight)| x.dot(y) * weight).sum()
-        };
-        // (bᵀ W b + 1) δ = bᵀ W z − a
-        let normal = Matrix3::from_fn(|i, k| product(columns[i], columns[k])) + Matrix3::identity();
-        let right = Vector3::from_fn(|i, _| product(columns[i], residual)) - self.tried;
-        let step = normal.cholesky().map_or(Vector3::zeros(), |factor| factor.solve(&right));
-        (self.best, self.objective, self.step) = (self.tried, objective, step);
-        self.promise = step.dot(&right);
-        self.tried = self.best + step;
+        let normal = Normal::new(&Columns {
+            residual,
+            columns: &columns.each_ref().map(|column| column[self.samples.clone()].to_vec()),
+            weights: &evidence.weights(residual),
+            blocks: &vec![0; residual.len()],
+            count: 1,
+        });
+        // |a + δ|² is a prior of the step δ with the mean −a
+        let known = [0, 1, 2].map(|k| Prior::normal(-tried[k], 1.0));
+        let Solution { estimate, gain, .. } = normal.fit(&[0, 1, 2], &known);
+        (self.best, self.objective) = (tried, objective);
+        (self.step, self.promise) = (Vector3::from_fn(|k, _| estimate[k]), gain);
     }
+}
+
+/// Prior deviations of the twist with which a run begins: across and along, m/s, and yaw, rad/s.
+fn deviations(evidence: &Evidence, hypothesis: &Hypothesis) -> Vector3<f64> {
+    let known = evidence.settings().evidence.start_deviation * evidence.fastest();
+    Vector3::new(known, known, 2.0 * known / hypothesis.vehicle.gauge)
+}
+
+/// Prior penalty Σ |S⁻¹ a|² of these starts of a hypothesis.
+pub fn penalty(evidence: &Evidence, hypothesis: &Hypothesis, starts: &[Twist]) -> f64 {
+    let deviations = deviations(evidence, hypothesis);
+    let square =
+        |start: &Twist| Vector3::from(start.to_array()).component_div(&deviations).norm_squared();
+    starts.iter().map(square).sum()
+}
+
+/// A hypothesis whose runs begin in the motions that suit it best.
+pub struct Begun {
+    /// The hypothesis.
+    pub hypothesis: Hypothesis,
+    /// Its mechanics, without slopes.
+    pub mechanics: Mechanics,
+    /// Change of each sample by each axis of the twist with which its run begins, times the prior
+    /// deviation of that axis.
+    pub by_starts: [Column; 3],
+}
+
+/// A hypothesis with the best starts of its runs, from its present ones on; none where its motion
+/// does not depend on how it began. `before` is the mechanics of a similar hypothesis, for reuse.
+pub fn begun(
+    evidence: &Weighted,
+    hypothesis: &Hypothesis,
+    before: Option<&Mechanics>,
+) -> Option<Begun> {
+    let deviations = deviations(evidence, hypothesis);
+    let instruments = Instruments::of(hypothesis);
+    let present = hypothesis.starts_in(evidence);
+    let runs = run_ranges(evidence.samples()).map(|samples| {
+        let run = evidence.samples()[samples.start].run;
+        let present = present.map_or(Twist::zero(), |starts| starts[run]);
+        let best = Vector3::from(present.to_array()).component_div(&deviations);
+        let [objective, promise] = [f64::INFINITY; 2];
+        Start { samples, run, best, objective, step: Vector3::zeros(), promise }
+    });
+    let mut runs: Vec<Start> = runs.collect();
+    let with = |of: &dyn Fn(&Start) -> Vector3<f64>, runs: &[Start]| -> Hypothesis {
+        let mut twists = vec![Twist::zero(); evidence.tracks().len()];
+        for start in runs {
+            let twist = of(start).component_mul(&deviations);
+            twists[start.run] = Twist::from_array(twist.into());
+        }
+        hypothesis.beginning(evidence, twists)
+    };
+    let at = |hypothesis: Hypothesis, before: Option<&Mechanics>| {
+        let mechanics = Mechanics::beside(before, &hypothesis, &[], evidence);
+        let mut by_starts = mechanics.by_starts(&instruments, evidence)?;
+        for (column, deviation) in by_starts.iter_mut().zip(deviations.iter()) {
+            for value in column.iter_mut() {
+                *value *= *deviation;
+            }
+        }
+        Some(Begun { hypothesis, mechanics, by_starts })
+    };
+    let least = evidence.settings().fit.min_fall;
+    let mut before = before.cloned();
+    for _ in 0..evidence.settings().evidence.start_rounds {
+        let tried = at(with(&Start::tried, &runs), before.as_ref())?;
+        let residual = evidence.residual(&tried.mechanics.predict(&instruments, evidence));
+        let white = tried.by_starts.map(|column| evidence.white(column));
+        for run in &mut runs {
+            run.judged(evidence, &residual, &white);
+        }
+        before = Some(tried.mechanics);
+        if runs.iter().all(|run| run.promise < least) {
+            break;
+        }
+    }
+    at(with(&|run| run.best, &runs), before.as_ref())
 }
 
 /// The evidence in which each run begins with the motion that a hypothesis finds for it; none where
 /// its motion does not depend on how it began.
 pub fn with_own_starts(evidence: &Weighted, hypothesis: &Hypothesis) -> Option<Weighted> {
-    let settings = &evidence.settings().evidence;
-    let known = settings.start_deviation * evidence.fastest();
-    // across, along and yaw, in the paper's frame
-    let deviations = Vector3::new(known, known, 2.0 * known / hypothesis.vehicle.gauge);
-    let instruments = Instruments::of(hypothesis);
-    let mut begin = 0;
-    let runs = evidence.samples().chunk_by(|a, b| a.run == b.run).map(|of_run| {
-        let samples = begin..begin + of_run.len();
-        begin = samples.end;
-        let none = Vector3::zeros();
-        let run = of_run[0].run;
-        let [objective, promise] = [f64::INFINITY; 2];
-        Start { samples, run, best: none, objective, step: none, promise, tried: none }
-    });
-    let mut runs: Vec<Start> = runs.collect();
-    let count = evidence.tracks().len();
-    let twists = |of: &dyn Fn(&Start) -> Vector3<f64>, runs: &[Start]| -> Vec<Twist> {
-        let mut twists = vec![Twist::zero(); count];
-        for start in runs {
-            let twist = of(start).component_mul(&deviations);
-            twists[start.run] = Twist::from_array(twist.into());
-        }
-        twists
-    };
-    let at = |starts: Vec<Twist>, before: Option<&Mechanics>| {
-        let seen = evidence.with_readings(|evidence| evidence.with_starts(starts));
-        let mechanics = Mechanics::beside(before, hypothesis, &[], &seen);
-        let mut columns = mechanics.by_starts(&instruments, &seen)?;
-        for (column, deviation) in columns.iter_mut().zip(deviations.iter()) {
-            for value in column.iter_mut() {
-                *value *= *deviation;
-            }
-        }
-        Some((seen, mechanics, columns))
-    };
-    let least = evidence.settings().fit.min_fall;
-    let mut before: Option<Mechanics> = None;
-    for _ in 0..settings.start_rounds {
-        let (seen, mechanics, columns) = at(twists(&|run| run.tried, &runs), before.as_ref())?;
-        let residual = seen.residual(&mechanics.predict(&instruments, &seen));
-        let white = columns.map(|column| seen.white(column));
-        for run in &mut runs {
-            run.judged(evidence, &residual, &white);
-        }
-        before = Some(mechanics);
-        if runs.iter().all(|run| run.promise < least) {
-            break;
-        }
-    }
-    let starts = twists(&|run| run.best, &runs);
-    let (_, _, columns) = at(starts.clone(), before.as_ref())?;
-    Some(evidence.with_starts(starts, columns))
+    let Begun { mechanics, by_starts, .. } = begun(evidence, hypothesis, None)?;
+    let starts = mechanics.starts()?.to_vec();
+    Some(evidence.with_starts(starts, by_starts))
 }
 
 #[cfg(test)]

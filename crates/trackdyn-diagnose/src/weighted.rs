@@ -150,8 +150,13 @@ impl Weighted {
     /// stationary one by `starts` (paper's frame), give or take its prior deviation. `by_starts` is
     /// the change of each sample by each axis of that twist, times the deviation.
     pub fn with_starts(&self, starts: Vec<Twist>, by_starts: [Column; 3]) -> Self {
-        self.with_readings(|evidence| evidence.with_starts(starts))
-            .with_segments(|segments| segments.by_starts = Some(Arc::new(by_starts)))
+        self.with_readings(|evidence| evidence.with_starts(starts)).allowing_for_starts(by_starts)
+    }
+
+    /// The evidence that allows for a change of each sample by each axis of the twist with which its
+    /// run begins, times its prior deviation.
+    pub fn allowing_for_starts(&self, by_starts: [Column; 3]) -> Self {
+        self.with_segments(|segments| segments.by_starts = Some(Arc::new(by_starts)))
     }
 
     /// ln of the density that unknown beginnings of the runs cost; zero where they are known.

@@ -26,7 +26,8 @@ pub(super) fn begun(
     if !begin_in_motion(seen) {
         return Ok(None);
     }
-    let search = Search::new(seen.clone(), base.clone(), Catalogue { entries: Vec::new() });
+    let base = base.refitted(seen);
+    let search = Search::new(seen.clone(), base, Catalogue { entries: Vec::new() });
     let nothing = search.nothing();
     let newton = search.newton(&nothing, watch)?;
     let worth = settings.search.min_ln_evidence;
@@ -41,15 +42,17 @@ pub(super) fn begun(
     for _ in 0..settings.evidence.start_repeats {
         watch.go_on()?;
         let Some(own) = with_own_starts(seen, &hypothesis) else { break };
-        let fit = Fit::new(hypothesis, &unknowns, &own, None);
+        let fit = Fit::new(hypothesis, &unknowns, &own, None).with_own_starts(&own);
         let ln_evidence = fit.ln_evidence() + own.ln_determinant_of_starts();
+        let starts = fit.mechanics.starts().map(<[_]>::to_vec);
         hypothesis = fit.hypothesis;
         let most = best.as_ref().map_or(least, |(most, _)| *most);
         if ln_evidence <= most {
             break;
         }
         let is_enough = best.is_some() && ln_evidence < most + worth;
-        best = Some((ln_evidence, own));
+        let starting = |starts| own.with_readings(|evidence| evidence.with_starts(starts));
+        best = Some((ln_evidence, starts.map_or_else(|| own.clone(), starting)));
         if is_enough {
             break;
         }

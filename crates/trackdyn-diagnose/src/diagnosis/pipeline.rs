@@ -84,7 +84,7 @@ pub fn examine(
         watch.try_stage(Stage::Readings, || Cleaned::of(seen, unseen, &base, watch))?;
 
     // Begun: runs that were cut out of a slide begin in a motion of their own.
-    let own = watch.try_stage(Stage::Beginnings, || begun(&seen, &base.refitted(&seen), watch))?;
+    let own = watch.try_stage(Stage::Beginnings, || begun(&seen, &base, watch))?;
     let seen = own.unwrap_or(seen);
 
     // Signatures and search, repeated with smaller noise where the best hypothesis shows that the

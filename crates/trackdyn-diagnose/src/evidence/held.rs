@@ -5,9 +5,10 @@
 //! change at even times several readings apart, a line leads from one to the next. A value that
 //! stays for longer was confirmed at each update: the line begins one interval before the change.
 
+use super::with_speeds;
 use crate::settings;
-use trackdyn_core::{PerSide, Side};
-use trackdyn_estimate::regular::stretches;
+use trackdyn_core::robust::{median, usual_interval};
+use trackdyn_core::{PerSide, Side, real};
 use trackdyn_recording::TrackSample;
 
 /// Readings of all runs with lines between the updates of each track whose values are held.
@@ -21,14 +22,7 @@ pub(super) fn joined(
             Some(interval) => joined_run(run, side, interval),
             None => run.iter().map(|reading| reading.speeds()[side]).collect(),
         };
-        let speeds = PerSide::from_fn(of);
-        let readings = run.iter().enumerate();
-        let reading = |(k, reading): (usize, &TrackSample)| TrackSample {
-            v_left: speeds.left[k],
-            v_right: speeds.right[k],
-            ..*reading
-        };
-        readings.map(reading).collect()
+        with_speeds(run, &PerSide::from_fn(of))
     };
     runs.iter().map(joined).collect()
 }
@@ -46,24 +40,18 @@ fn update_interval(
     side: Side,
     settings: &settings::Evidence,
 ) -> Option<f64> {
-    let stamps = |run: &Vec<TrackSample>| -> Vec<f64> { run.iter().map(|one| one.t).collect() };
-    let all = runs.iter().flat_map(|run| stretches(&stamps(run)));
-    let reading = median(all.map(|(_, interval)| interval).filter(|of| *of > 0.0).collect())?;
+    let usual = |run: &Vec<TrackSample>| usual_interval(run.iter().map(|reading| reading.t));
+    let reading = median(&mut runs.iter().map(usual).filter(|of| *of > 0.0).collect::<Vec<_>>())?;
     let gaps = |run: &Vec<TrackSample>| -> Vec<f64> {
         let changes = changes(run, side);
         changes.windows(2).map(|pair| run[pair[1]].t - run[pair[0]].t).collect()
     };
-    let gaps: Vec<f64> = runs.iter().flat_map(gaps).collect();
-    let interval = median(gaps.clone())?;
+    let mut gaps: Vec<f64> = runs.iter().flat_map(gaps).collect();
+    let interval = median(&mut gaps)?;
     let early = gaps.iter().filter(|gap| **gap < interval - 0.5 * reading).count();
-    let is_even = early <= gaps.len() / settings.held_changes_per_early_one;
+    let is_even = real(early) <= settings.max_early_share * real(gaps.len());
     let is_held = interval > 1.5 * reading && interval <= settings.max_held;
     (is_held && is_even).then_some(interval)
-}
-
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    let middle = values.len() / 2;
-    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
 /// Speeds of a track with a line before each change, over an update interval, s, at most.
@@ -119,7 +107,7 @@ mod tests {
         let mut steps = run(1);
         for (k, reading) in steps.iter_mut().enumerate() {
             let passed = [3, 5, 14, 16, 17, 40, 41, 55, 80].iter().filter(|at| **at < k).count();
-            reading.v_left = trackdyn_core::real(passed);
+            reading.v_left = real(passed);
         }
         assert_eq!(joined(&[steps.clone()], &settings)[0], steps);
     }

@@ -6,6 +6,7 @@
 //! (Δ³S_k)². It delays nothing and leaves constant acceleration unchanged. As the variance is
 //! known, λ minimises the expected error (Mallows' C_p).
 
+use super::with_speeds;
 use crate::settings;
 use std::f64::consts::PI;
 use trackdyn_core::{PerSide, Side, real};
@@ -72,12 +73,8 @@ fn between_ticks(
     };
     let travel = PerSide::from_fn(of);
     let speed = |side: Side, k: usize| (travel[side][k + 1] - travel[side][k]) / interval;
-    let even = stretch.iter().enumerate().map(|(k, reading)| TrackSample {
-        v_left: speed(Side::Left, k),
-        v_right: speed(Side::Right, k),
-        ..*reading
-    });
-    even.collect()
+    let speeds = |side: Side| (0..stretch.len()).map(|k| speed(side, k)).collect();
+    with_speeds(stretch, &PerSide::from_fn(speeds))
 }
 
 /// Smoothed travel with the least expected error, from travel counted in ticks, m.

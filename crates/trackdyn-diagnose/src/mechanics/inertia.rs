@@ -57,8 +57,8 @@ pub struct InertiaNear {
 impl InertiaNear {
     /// Departure simulated for this case, without derivatives. `inert` are the effects of inertia.
     pub fn here(inert: Vec<ActiveEffect>, case: &Case) -> Result<Self, String> {
-        let (at, _) = Inertia::new(inert, case)?;
-        Ok(Self { at: Arc::new(at), slopes: Vec::new(), shift: None })
+        let at = Arc::new(Inertia::new(inert, case)?);
+        Ok(Self { at, slopes: Vec::new(), shift: None })
     }
 
     /// Departure of a hypothesis: extrapolated from `before` where it is near and all slopes are
@@ -78,11 +78,9 @@ impl InertiaNear {
             return Ok(near);
         }
         let known = before.filter(|before| before.at.is_for(&inert, case));
-        let (at, steps) = if let Some(known) = known {
-            (Arc::clone(&known.at), None)
-        } else {
-            let (at, steps) = Inertia::new(inert, case)?;
-            (Arc::new(at), Some(steps))
+        let at = match known {
+            Some(known) => Arc::clone(&known.at),
+            None => Arc::new(Inertia::new(inert, case)?),
         };
         // Slopes of a clearly different robot mislead: moments of inertia are quadratic in a
         // radius.
@@ -93,8 +91,11 @@ impl InertiaNear {
             free.iter().partition(|by| of(by).is_some());
         let mut all: Vec<Arc<Slope>> = known.iter().filter_map(of).cloned().collect();
         if !missing.is_empty() {
-            let steps = steps.map_or_else(|| at.steps_again(), Ok)?;
+            let steps = at.fine_steps()?;
             all.extend(slopes(&missing, (&at, &steps), case, delay).into_iter().map(Arc::new));
+        }
+        if !free.is_empty() {
+            at.forget_steps();
         }
         Ok(Self { at, slopes: all, shift: None })
     }
@@ -166,6 +167,11 @@ impl InertiaNear {
             samples.iter().map(|sample| self.at.mean_over(sample, delay, twists)).collect()
         };
         Ok(changes.each_ref().map(of))
+    }
+
+    /// Departure of the twist (paper's frame) from the stationary one with which each run begins.
+    pub fn starts(&self) -> Option<&[Twist]> {
+        self.at.starts.as_deref()
     }
 
     /// Whether both come from one transient simulation.

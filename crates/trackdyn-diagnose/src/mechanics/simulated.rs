@@ -10,7 +10,7 @@ use crate::surface::Surface;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::collections::{BTreeSet, VecDeque};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
 use trackdyn_core::{PerSide, Plant, Pose, Side, Trajectory, Twist};
 use trackdyn_model::contact::Resolution;
@@ -65,6 +65,8 @@ pub struct Case<'a> {
     /// Largest speed of a belt, m/s.
     pub largest: f64,
     pub drive: &'a Drive,
+    /// Departure of the twist from the stationary one with which each run begins.
+    pub starts: Option<&'a Arc<[Twist]>>,
     pub evidence: &'a Evidence,
 }
 
@@ -101,9 +103,11 @@ pub struct Inertia {
     drive: Drive,
     /// Departure of the twist from the stationary one with which each run begins; none where all
     /// begin in stationary motion.
-    starts: Option<Arc<[Twist]>>,
+    pub starts: Option<Arc<[Twist]>>,
     /// Transient motion of each run, by the encoder clock.
     paths: Vec<Trajectory>,
+    /// Its steps, until they are forgotten.
+    fine: Mutex<Option<Arc<Vec<Vec<Step>>>>>,
     /// Its coarse steps, computed on demand.
     steps: OnceLock<Vec<Vec<Step>>>,
     /// Belt speeds, m/s.
@@ -122,9 +126,9 @@ pub struct Inertia {
 }
 
 impl Inertia {
-    /// Simulates a case; also returns the steps of each run. `inert` are the effects of inertia.
-    pub fn new(inert: Vec<ActiveEffect>, case: &Case) -> Result<(Self, Vec<Vec<Step>>), String> {
-        let Case { model, largest, drive, evidence, .. } = *case;
+    /// Simulates a case. `inert` are the effects of inertia.
+    pub fn new(inert: Vec<ActiveEffect>, case: &Case) -> Result<Self, String> {
+        let Case { model, largest, drive, starts, evidence, .. } = *case;
         let settings = case.settings().clone();
         let surface = Surface::new(model, largest, settings.speed_range, None);
         let gained = |reading: &TrackSample| {
@@ -135,17 +139,18 @@ impl Inertia {
             .iter()
             .map(|run| smoothed(run).iter().map(gained).collect())
             .collect();
-        let starts = evidence.starts().cloned();
+        let starts = starts.cloned();
         let runs = fine(model, &surface, (&belts, starts.as_deref()), &settings)?;
         let (paths, steps) = runs.into_iter().unzip();
         let steady = belts.iter().map(|run| stationary(&surface, run)).collect();
-        let simulated = Self {
+        Ok(Self {
             inert,
             vehicle: case.vehicle.clone(),
             model: model.clone(),
             drive: *drive,
             starts,
             paths,
+            fine: Mutex::new(Some(Arc::new(steps))),
             steps: OnceLock::new(),
             belts,
             largest,
@@ -154,15 +159,32 @@ impl Inertia {
             left: OnceLock::new(),
             departures: Mutex::default(),
             settings,
-        };
-        Ok((simulated, steps))
+        })
     }
 
-    /// The steps of each run, simulated again.
-    pub fn steps_again(&self) -> Result<Vec<Vec<Step>>, String> {
-        let runs = (&self.belts[..], self.starts.as_deref());
-        let runs = fine(&self.model, &self.surface, runs, &self.settings)?;
-        Ok(runs.into_iter().map(|(_, steps)| steps).collect())
+    /// The steps of each run, simulated again where they were forgotten.
+    ///
+    /// # Errors
+    /// The simulation fails.
+    pub fn fine_steps(&self) -> Result<Arc<Vec<Vec<Step>>>, String> {
+        let kept = self.kept_steps().clone();
+        kept.map_or_else(
+            || {
+                let runs = (&self.belts[..], self.starts.as_deref());
+                let runs = fine(&self.model, &self.surface, runs, &self.settings)?;
+                Ok(Arc::new(runs.into_iter().map(|(_, steps)| steps).collect()))
+            },
+            Ok,
+        )
+    }
+
+    /// Forgets the steps of each run: they take much memory.
+    pub fn forget_steps(&self) {
+        *self.kept_steps() = None;
+    }
+
+    fn kept_steps(&self) -> MutexGuard<'_, Option<Arc<Vec<Vec<Step>>>>> {
+        self.fine.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Whether it was simulated for exactly this case.
@@ -177,7 +199,7 @@ impl Inertia {
 
     /// Whether the runs begin in the motion of this case.
     pub fn begins_as(&self, case: &Case) -> bool {
-        self.starts.as_ref() == case.evidence.starts()
+        self.starts.as_ref() == case.starts
     }
 
     /// Additional belt lag of this drive, s, mean of both sides: slow changes are delayed by the
@@ -309,8 +331,8 @@ impl Inertia {
         let alike = [0; 3].map(|_| self.model.clone());
         let axes = [0, 1, 2].map(|axis| Twist::from_array(Vector3::ith(axis, 1.0).into()));
         let creep = self.settings.stick_speed;
-        let steps = self.steps_again()?;
-        let runs = self.belts.par_iter().zip(&steps).map(|(belts, steps)| {
+        let steps = self.fine_steps()?;
+        let runs = self.belts.par_iter().zip(&*steps).map(|(belts, steps)| {
             let still = vec![Twist::zero(); belts.len()];
             let changes = tangents(&self.model, steps, &alike, &axes, creep);
             changes.iter().map(|changes| held(belts, steps, changes, &still)).collect()

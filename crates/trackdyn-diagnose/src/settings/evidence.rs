@@ -45,10 +45,10 @@ group! {
         max_held: f64 = 0.5, "s", [0.0, 10.0],
             "Slower ones are commands.",
             "Lower: staircases look like a lag; higher: commands are blurred.";
-        /// Changes of a held speed for each one that may come earlier than its interval.
-        held_changes_per_early_one: usize = 10, "", [1.0, 1e6],
+        /// Share of the changes of a held speed that may come earlier than its interval.
+        max_early_share: f64 = 0.1, "", [0.0, 1.0],
             "Late stamps bring a change early.",
-            "Lower: what changes at any time is joined.";
+            "Higher: what changes at any time is joined.";
         /// Rise of twice the misfit up to which cleaned readings stand.
         max_rise_by_cleaning: f64 = 4.0, "", [0.0, 1e6],
             "Two standard deviations.",
@@ -66,8 +66,12 @@ group! {
             "A step that does not help is halved.",
             "Lower: far slides are not found.";
         /// Fits of first motions and of the rest in turn.
-        start_repeats: usize = 3, "", [1.0, 100.0],
+        start_repeats: usize = 6, "", [1.0, 100.0],
             "Each depends on the other.";
+        /// Fall of twice the misfit that ends them.
+        min_fall_by_starts: f64 = 4.0, "", [0.0, 100.0],
+            "Two standard deviations.",
+            "Lower: slower; higher: hypotheses are compared before their beginnings suit them.";
         /// First and last power of √10 tried for smoothing ticks.
         smoothing_powers: [f64; 2] = [-4.0, 10.0], "", [-20.0, 20.0],
             "The last spans forty readings.";

@@ -132,7 +132,7 @@ pub fn judge_constants(
     let (filed, fixed) = as_filed(search, best, constants, file, claimed);
     let evidence = &search.evidence;
     let before = Some(&best.fit.mechanics);
-    let dropped = Fit::new(filed.clone(), &fixed, evidence, before);
+    let dropped = Fit::new(filed.clone(), &fixed, evidence, before).with_own_starts(evidence);
     let moving: Vec<Unknown> = OFFSETS.iter().chain(&fixed).copied().collect();
     let found = |fit: Fit| search.found(best.effects.clone(), fit);
     let dropped = found(dropped);

@@ -78,7 +78,7 @@ fn without_instrument(search: &Search, best: &Found, effect: EffectId) -> Found 
     let unknowns = best.fit.unknowns_without(effect);
     let before = Some(&best.fit.mechanics);
     let fit = Fit::new(hypothesis, &unknowns, &search.evidence, before);
-    search.found(best.effects.clone(), fit)
+    search.with_own_starts(search.found(best.effects.clone(), fit))
 }
 
 /// The best hypothesis without any law of forces, refitted.

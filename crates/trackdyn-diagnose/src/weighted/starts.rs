@@ -10,7 +10,7 @@
 //! ```
 
 use crate::equations::Column;
-use crate::evidence::Sample;
+use crate::evidence::{Sample, run_ranges};
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use std::ops::Range;
 
@@ -40,12 +40,8 @@ impl Starts {
     /// From the columns b of all runs, whitened by the noise alone; each row belongs to the run of
     /// its sample.
     pub fn new(samples: &[Sample], columns: &[Column; 3]) -> Self {
-        let mut begin = 0;
-        let runs = samples.chunk_by(|a, b| a.run == b.run).map(|run| {
-            let samples = begin..begin + run.len();
-            begin = samples.end;
-            Run { directions: directions(&samples, columns), samples }
-        });
+        let runs = run_ranges(samples)
+            .map(|samples| Run { directions: directions(&samples, columns), samples });
         Self { runs: runs.collect() }
     }
 

@@ -160,6 +160,7 @@ mod tests {
     use super::*;
     use crate::evidence::Evidence;
     use crate::evidence::planned::{PlannedRun, READINGS};
+    use crate::fit::Fit;
     use crate::settings::{self, Settings};
     use trackdyn_core::{Pose, real};
     use trackdyn_estimate::weighting::SegmentNoise;
@@ -222,6 +223,25 @@ mod tests {
         };
         let [stationary, found] = [&seen, &own].map(misfit);
         assert!(found < 1e-3 * stationary, "{found} {stationary}");
+    }
+
+    /// Beginnings that suit a robot with a lag, which is not there, serve the true hypothesis badly.
+    #[test]
+    fn a_hypothesis_begins_its_runs_as_suits_it() {
+        let inertia = ["yaw-inertia:strength=1,gyration_m=0.3", "centripetal"];
+        let hypothesis = on_ice(&inertia);
+        let seen = Weighted::new(windows(&hypothesis, &slides()));
+        let late = on_ice(&[&inertia[..], &["drivetrain-lag:time_constant_s=0.2"]].concat());
+        let of_late = with_own_starts(&seen, &late).expect("it slides");
+        let fixed = Fit::new(hypothesis, &[], &of_late, None);
+        let own = fixed.clone().with_own_starts(&of_late);
+        // what is left is the price of the slides themselves
+        let price = penalty(&of_late, &own.hypothesis, &slides());
+        let left = own.objective - price;
+        assert!(left < 0.01 * fixed.objective, "{left} {price} {}", fixed.objective);
+        // other samples begin as their evidence says
+        let others = windows(&own.hypothesis, &slides());
+        assert!(own.hypothesis.starts_in(&others).is_none());
     }
 
     #[test]

@@ -134,7 +134,8 @@ fn way(f: &mut Formatter<'_>, left: f64, mount: Option<f64>, during: Option<[f64
         ),
         None => f.write_str(
             "check the wheel radius and the units, whether x and y are swapped or \
-             mirrored, and whether these poses measure positions at all",
+             mirrored, and whether these poses measure positions at all (on ice a robot \
+             may slide as far)",
         ),
     }
 }

@@ -225,7 +225,8 @@ mod tests {
         assert!(found < 1e-3 * stationary, "{found} {stationary}");
     }
 
-    /// Beginnings that suit a robot with a lag, which is not there, serve the true hypothesis badly.
+    /// Beginnings that suit a robot with a lag, which is not there, serve the true hypothesis
+    /// badly.
     #[test]
     fn a_hypothesis_begins_its_runs_as_suits_it() {
         let inertia = ["yaw-inertia:strength=1,gyration_m=0.3", "centripetal"];

@@ -153,8 +153,8 @@ impl Weighted {
         self.with_readings(|evidence| evidence.with_starts(starts)).allowing_for_starts(by_starts)
     }
 
-    /// The evidence that allows for a change of each sample by each axis of the twist with which its
-    /// run begins, times its prior deviation.
+    /// The evidence that allows for a change of each sample by each axis of the twist with which
+    /// its run begins, times its prior deviation.
     pub fn allowing_for_starts(&self, by_starts: [Column; 3]) -> Self {
         self.with_segments(|segments| segments.by_starts = Some(Arc::new(by_starts)))
     }

@@ -61,8 +61,8 @@ group! {
         max_rise_of_nested: f64 = 0.1, "", [0.0, 100.0],
             "Rounding, and the end of a descent.",
             "Higher: effects are lost in worse minima.";
-        /// Rise of the objective, over the objective, up to which a hypothesis without an effect gets
-        /// beginnings of its own.
+        /// Rise of the objective, over the objective, up to which a hypothesis without an effect
+        /// gets beginnings of its own.
         max_rise_by_starts: f64 = 0.3, "", [0.0, 1e6],
             "Beginnings explain no more.",
             "Lower: what beginnings may explain is claimed; higher: slower.";

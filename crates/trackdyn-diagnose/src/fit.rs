@@ -217,37 +217,35 @@ impl Fit {
         fit
     }
 
-    /// The fit in which runs begin in the motions that suit its own hypothesis; itself where the
-    /// evidence has stationary beginnings.
+    /// A better fit, whose runs begin in the motions that suit its own hypothesis; none where there
+    /// is none, or the evidence has stationary beginnings.
     ///
     /// The evidence allows for beginnings as they suit another hypothesis, to first order. Here,
     /// unknowns are fitted beside what beginnings may explain of this one, and beginnings beside
     /// the unknowns, in turn. The objective remains that of the evidence.
-    pub fn with_own_starts(self, evidence: &Weighted) -> Self {
-        let mut fit = self;
-        let settings = evidence.settings();
-        if evidence.starts().is_none() {
-            return fit;
-        }
-        let begun = |fit: &Self| starts::begun(evidence, &fit.hypothesis, Some(&fit.mechanics));
-        let Some(mut here) = begun(&fit) else { return fit };
-        for _ in 0..settings.evidence.start_repeats {
+    pub fn with_own_starts(&self, evidence: &Weighted) -> Option<Self> {
+        evidence.starts()?;
+        let begun = |fit: &Self| starts::fitted(evidence, &fit.hypothesis, Some(&fit.mechanics));
+        let settings = &evidence.settings().evidence;
+        let mut here = begun(self)?;
+        let mut best: Option<Self> = None;
+        for _ in 0..settings.start_repeats {
             let Begun { hypothesis, mechanics, by_starts } = here;
             let own = evidence.allowing_for_starts(by_starts);
-            let moved = Self::new(hypothesis, &fit.unknowns, &own, Some(&mechanics));
+            let moved = Self::new(hypothesis, &self.unknowns, &own, Some(&mechanics));
             let Some(there) = begun(&moved) else { break };
             let before = Some(&there.mechanics);
-            let next = Self::new(there.hypothesis.clone(), &fit.unknowns, evidence, before);
-            let fall = fit.objective - next.objective;
+            let next = Self::new(there.hypothesis.clone(), &self.unknowns, evidence, before);
+            let fall = best.as_ref().unwrap_or(self).objective - next.objective;
             if fall > 0.0 {
-                fit = next;
+                best = Some(next);
             }
-            if fall < settings.evidence.min_fall_by_starts {
+            if fall < settings.min_fall_by_starts {
                 break;
             }
             here = there;
         }
-        fit
+        best
     }
 
     /// The hypothesis at a share of the way from here to `end`.

@@ -25,18 +25,18 @@ pub struct Hypothesis {
     /// Largest |friction_level|.
     pub max_friction_change: f64,
     /// Motions with which runs begin, where they were found for this hypothesis.
-    pub starts: Option<Starts>,
+    pub starts: Option<OwnStarts>,
 }
 
 /// Departure of the twist (paper's frame) from the stationary one with which each run of some
 /// samples begins.
 #[derive(Clone, Debug)]
-pub struct Starts {
+pub struct OwnStarts {
     samples: Arc<[Sample]>,
     twists: Arc<[Twist]>,
 }
 
-impl PartialEq for Starts {
+impl PartialEq for OwnStarts {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.samples, &other.samples) && self.twists == other.twists
     }
@@ -125,7 +125,7 @@ impl Hypothesis {
     /// Departure of the twist (paper's frame) from the stationary one with which each run of this
     /// evidence begins; none where all begin in stationary motion.
     pub fn starts_in<'a>(&'a self, evidence: &'a Evidence) -> Option<&'a Arc<[Twist]>> {
-        let is_of = |own: &&Starts| Arc::ptr_eq(&own.samples, evidence.shared_samples());
+        let is_of = |own: &&OwnStarts| Arc::ptr_eq(&own.samples, evidence.shared_samples());
         let own = self.starts.as_ref().filter(is_of);
         own.map(|own| &own.twists).or_else(|| evidence.starts())
     }
@@ -133,7 +133,7 @@ impl Hypothesis {
     /// The hypothesis in which the runs of this evidence begin with these departures.
     pub fn beginning(&self, evidence: &Evidence, twists: Vec<Twist>) -> Self {
         let samples = Arc::clone(evidence.shared_samples());
-        Self { starts: Some(Starts { samples, twists: twists.into() }), ..self.clone() }
+        Self { starts: Some(OwnStarts { samples, twists: twists.into() }), ..self.clone() }
     }
 
     /// Allowed range of an unknown.

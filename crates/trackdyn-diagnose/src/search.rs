@@ -373,10 +373,10 @@ impl Search {
 
     /// A hypothesis whose runs begin in the motions that suit it best.
     pub fn with_own_starts(&self, found: Found) -> Found {
-        if self.evidence.starts().is_none() {
-            return found;
+        match found.fit.with_own_starts(&self.evidence) {
+            Some(fit) => self.found(found.effects, fit),
+            None => found,
         }
-        self.found(found.effects, found.fit.with_own_starts(&self.evidence))
     }
 
     /// The hypothesis without one of its added effects, refitted from there: the base itself may be

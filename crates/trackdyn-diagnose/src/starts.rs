@@ -13,8 +13,8 @@
 //!
 //! found by Gauss-Newton steps that are halved until they help; z are the whitened residuals of its
 //! samples and ρ is Huber's loss. What is then left unknown of a is noise that the samples of the
-//! run share ([`Weighted::with_starts`]). It is the same for all hypotheses: each forgoes what the
-//! beginnings may explain.
+//! run share ([`Weighted::allowing_for_starts`]). It is the same for all hypotheses: each forgoes
+//! what the beginnings may explain.
 
 use crate::equations::Column;
 use crate::evidence::{Evidence, run_ranges};
@@ -24,6 +24,7 @@ use crate::normal::{Columns, Normal, Prior, Solution};
 use crate::weighted::Weighted;
 use nalgebra::Vector3;
 use std::ops::Range;
+use std::sync::Arc;
 use trackdyn_core::Twist;
 
 /// Where the search for the start of a run stands, in prior deviations.
@@ -75,12 +76,15 @@ fn deviations(evidence: &Evidence, hypothesis: &Hypothesis) -> Vector3<f64> {
     Vector3::new(known, known, 2.0 * known / hypothesis.vehicle.gauge)
 }
 
+/// A twist in prior deviations, S⁻¹ a.
+fn scaled(start: &Twist, deviations: &Vector3<f64>) -> Vector3<f64> {
+    Vector3::from(start.to_array()).component_div(deviations)
+}
+
 /// Prior penalty Σ |S⁻¹ a|² of these starts of a hypothesis.
 pub fn penalty(evidence: &Evidence, hypothesis: &Hypothesis, starts: &[Twist]) -> f64 {
     let deviations = deviations(evidence, hypothesis);
-    let square =
-        |start: &Twist| Vector3::from(start.to_array()).component_div(&deviations).norm_squared();
-    starts.iter().map(square).sum()
+    starts.iter().map(|start| scaled(start, &deviations).norm_squared()).sum()
 }
 
 /// A hypothesis whose runs begin in the motions that suit it best.
@@ -96,7 +100,7 @@ pub struct Begun {
 
 /// A hypothesis with the best starts of its runs, from its present ones on; none where its motion
 /// does not depend on how it began. `before` is the mechanics of a similar hypothesis, for reuse.
-pub fn begun(
+pub fn fitted(
     evidence: &Weighted,
     hypothesis: &Hypothesis,
     before: Option<&Mechanics>,
@@ -106,8 +110,7 @@ pub fn begun(
     let present = hypothesis.starts_in(evidence);
     let runs = run_ranges(evidence.samples()).map(|samples| {
         let run = evidence.samples()[samples.start].run;
-        let present = present.map_or(Twist::zero(), |starts| starts[run]);
-        let best = Vector3::from(present.to_array()).component_div(&deviations);
+        let best = present.map_or(Vector3::zeros(), |starts| scaled(&starts[run], &deviations));
         let [objective, promise] = [f64::INFINITY; 2];
         Start { samples, run, best, objective, step: Vector3::zeros(), promise }
     });
@@ -150,9 +153,16 @@ pub fn begun(
 /// The evidence in which each run begins with the motion that a hypothesis finds for it; none where
 /// its motion does not depend on how it began.
 pub fn with_own_starts(evidence: &Weighted, hypothesis: &Hypothesis) -> Option<Weighted> {
-    let Begun { mechanics, by_starts, .. } = begun(evidence, hypothesis, None)?;
-    let starts = mechanics.starts()?.to_vec();
-    Some(evidence.with_starts(starts, by_starts))
+    let Begun { hypothesis, by_starts, .. } = fitted(evidence, hypothesis, None)?;
+    Some(beginning_as(evidence, &hypothesis).allowing_for_starts(by_starts))
+}
+
+/// The evidence whose runs begin as those of a hypothesis.
+pub fn beginning_as(evidence: &Weighted, hypothesis: &Hypothesis) -> Weighted {
+    match hypothesis.starts_in(evidence) {
+        Some(starts) => evidence.with_readings(|seen| seen.with_starts(Arc::clone(starts))),
+        None => evidence.clone(),
+    }
 }
 
 #[cfg(test)]
@@ -235,7 +245,7 @@ mod tests {
         let late = on_ice(&[&inertia[..], &["drivetrain-lag:time_constant_s=0.2"]].concat());
         let of_late = with_own_starts(&seen, &late).expect("it slides");
         let fixed = Fit::new(hypothesis, &[], &of_late, None);
-        let own = fixed.clone().with_own_starts(&of_late);
+        let own = fixed.with_own_starts(&of_late).expect("better");
         // what is left is the price of the slides themselves
         let price = penalty(&of_late, &own.hypothesis, &slides());
         let left = own.objective - price;

@@ -146,13 +146,6 @@ impl Weighted {
         self.with_segments(|segments| segments.twists = twists(self, prediction))
     }
 
-    /// The evidence in which each run begins with a twist of its own, which departs from the
-    /// stationary one by `starts` (paper's frame), give or take its prior deviation. `by_starts` is
-    /// the change of each sample by each axis of that twist, times the deviation.
-    pub fn with_starts(&self, starts: Vec<Twist>, by_starts: [Column; 3]) -> Self {
-        self.with_readings(|evidence| evidence.with_starts(starts)).allowing_for_starts(by_starts)
-    }
-
     /// The evidence that allows for a change of each sample by each axis of the twist with which
     /// its run begins, times its prior deviation.
     pub fn allowing_for_starts(&self, by_starts: [Column; 3]) -> Self {

@@ -5,7 +5,7 @@ use crate::candidate::Catalogue;
 use crate::fit::Fit;
 use crate::progress::{Cancelled, Watch};
 use crate::search::{Found, Search};
-use crate::starts::with_own_starts;
+use crate::starts::{beginning_as, with_own_starts};
 use crate::weighted::Weighted;
 use trackdyn_core::Side;
 
@@ -42,17 +42,16 @@ pub(super) fn begun(
     for _ in 0..settings.evidence.start_repeats {
         watch.go_on()?;
         let Some(own) = with_own_starts(seen, &hypothesis) else { break };
-        let fit = Fit::new(hypothesis, &unknowns, &own, None).with_own_starts(&own);
+        let fit = Fit::new(hypothesis, &unknowns, &own, None);
+        let fit = fit.with_own_starts(&own).unwrap_or(fit);
         let ln_evidence = fit.ln_evidence() + own.ln_determinant_of_starts();
-        let starts = fit.mechanics.starts().map(<[_]>::to_vec);
         hypothesis = fit.hypothesis;
         let most = best.as_ref().map_or(least, |(most, _)| *most);
         if ln_evidence <= most {
             break;
         }
         let is_enough = best.is_some() && ln_evidence < most + worth;
-        let starting = |starts| own.with_readings(|evidence| evidence.with_starts(starts));
-        best = Some((ln_evidence, starts.map_or_else(|| own.clone(), starting)));
+        best = Some((ln_evidence, beginning_as(&own, &hypothesis)));
         if is_enough {
             break;
         }

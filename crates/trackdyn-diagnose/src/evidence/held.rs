@@ -8,7 +8,7 @@
 use super::with_speeds;
 use crate::settings;
 use trackdyn_core::robust::{median, usual_interval};
-use trackdyn_core::{PerSide, Side, real};
+use trackdyn_core::{PerSide, Side};
 use trackdyn_recording::TrackSample;
 
 /// Readings of all runs with lines between the updates of each track whose values are held.
@@ -49,7 +49,7 @@ fn update_interval(
     let mut gaps: Vec<f64> = runs.iter().flat_map(gaps).collect();
     let interval = median(&mut gaps)?;
     let early = gaps.iter().filter(|gap| **gap < interval - 0.5 * reading).count();
-    let is_even = real(early) <= settings.max_early_share * real(gaps.len());
+    let is_even = early <= gaps.len() / settings.held_changes_per_early_one;
     let is_held = interval > 1.5 * reading && interval <= settings.max_held;
     (is_held && is_even).then_some(interval)
 }
@@ -107,7 +107,7 @@ mod tests {
         let mut steps = run(1);
         for (k, reading) in steps.iter_mut().enumerate() {
             let passed = [3, 5, 14, 16, 17, 40, 41, 55, 80].iter().filter(|at| **at < k).count();
-            reading.v_left = real(passed);
+            reading.v_left = trackdyn_core::real(passed);
         }
         assert_eq!(joined(&[steps.clone()], &settings)[0], steps);
     }

@@ -57,8 +57,9 @@ pub struct InertiaNear {
 impl InertiaNear {
     /// Departure simulated for this case, without derivatives. `inert` are the effects of inertia.
     pub fn here(inert: Vec<ActiveEffect>, case: &Case) -> Result<Self, String> {
-        let at = Arc::new(Inertia::new(inert, case)?);
-        Ok(Self { at, slopes: Vec::new(), shift: None })
+        let at = Inertia::new(inert, case)?;
+        at.forget_steps();
+        Ok(Self { at: Arc::new(at), slopes: Vec::new(), shift: None })
     }
 
     /// Departure of a hypothesis: extrapolated from `before` where it is near and all slopes are
@@ -94,7 +95,8 @@ impl InertiaNear {
             let steps = at.fine_steps()?;
             all.extend(slopes(&missing, (&at, &steps), case, delay).into_iter().map(Arc::new));
         }
-        if !free.is_empty() {
+        // Only the search for starts, which has no free unknowns, asks for the steps again.
+        if case.starts.is_none() || !free.is_empty() {
             at.forget_steps();
         }
         Ok(Self { at, slopes: all, shift: None })

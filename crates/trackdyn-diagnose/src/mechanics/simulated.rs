@@ -167,15 +167,12 @@ impl Inertia {
     /// # Errors
     /// The simulation fails.
     pub fn fine_steps(&self) -> Result<Arc<Vec<Vec<Step>>>, String> {
-        let kept = self.kept_steps().clone();
-        kept.map_or_else(
-            || {
-                let runs = (&self.belts[..], self.starts.as_deref());
-                let runs = fine(&self.model, &self.surface, runs, &self.settings)?;
-                Ok(Arc::new(runs.into_iter().map(|(_, steps)| steps).collect()))
-            },
-            Ok,
-        )
+        if let Some(kept) = self.kept_steps().clone() {
+            return Ok(kept);
+        }
+        let runs = (&self.belts[..], self.starts.as_deref());
+        let runs = fine(&self.model, &self.surface, runs, &self.settings)?;
+        Ok(Arc::new(runs.into_iter().map(|(_, steps)| steps).collect()))
     }
 
     /// Forgets the steps of each run: they take much memory.

@@ -45,10 +45,10 @@ group! {
         max_held: f64 = 0.5, "s", [0.0, 10.0],
             "Slower ones are commands.",
             "Lower: staircases look like a lag; higher: commands are blurred.";
-        /// Share of the changes of a held speed that may come earlier than its interval.
-        max_early_share: f64 = 0.1, "", [0.0, 1.0],
+        /// Changes of a held speed for each one that may come earlier than its interval.
+        held_changes_per_early_one: usize = 10, "", [1.0, 1e6],
             "Late stamps bring a change early.",
-            "Higher: what changes at any time is joined.";
+            "Lower: what changes at any time is joined.";
         /// Rise of twice the misfit up to which cleaned readings stand.
         max_rise_by_cleaning: f64 = 4.0, "", [0.0, 1e6],
             "Two standard deviations.",

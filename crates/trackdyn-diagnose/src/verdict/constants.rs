@@ -132,10 +132,10 @@ pub fn judge_constants(
     let (filed, fixed) = as_filed(search, best, constants, file, claimed);
     let evidence = &search.evidence;
     let before = Some(&best.fit.mechanics);
-    let dropped = Fit::new(filed.clone(), &fixed, evidence, before).with_own_starts(evidence);
+    let dropped = Fit::new(filed.clone(), &fixed, evidence, before);
     let moving: Vec<Unknown> = OFFSETS.iter().chain(&fixed).copied().collect();
     let found = |fit: Fit| search.found(best.effects.clone(), fit);
-    let dropped = found(dropped);
+    let dropped = search.with_own_starts(found(dropped));
     let free = found(Fit::new(filed.clone(), &moving, evidence, before));
     let ln_bayes_factor = free.ln_evidence - dropped.ln_evidence;
     let z = (dropped.fit.objective - free.fit.objective).max(0.0).sqrt();

@@ -237,7 +237,7 @@ impl<'a> Beside<'a> {
         let with = if is_instrument {
             self.mechanics.predict(&instruments, self.evidence)
         } else {
-            let mechanics = Mechanics::beside(Some(&self.mechanics), &with, &[], self.evidence);
+            let mechanics = Mechanics::beside(Some(&self.mechanics), &with, self.evidence);
             if mechanics.failure().is_some() {
                 return None;
             }

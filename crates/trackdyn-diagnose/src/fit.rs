@@ -135,7 +135,7 @@ impl Point {
         evidence: &Weighted,
         before: Option<&Mechanics>,
     ) -> Self {
-        let mechanics = Mechanics::beside(before, &hypothesis, unknowns, evidence);
+        let mechanics = Mechanics::beside(before, &hypothesis, evidence);
         Self::with_mechanics(hypothesis, mechanics, unknowns, evidence)
     }
 
@@ -370,7 +370,14 @@ impl Fit {
         self.mechanics.predict(&Instruments::of(&self.hypothesis), evidence)
     }
 
+    /// A point with its Jacobian, and with the slopes of its departure in time.
     fn linearised(point: Point, unknowns: &[Unknown], evidence: &Weighted) -> Self {
+        let mechanics = point.mechanics.with_slopes(&point.hypothesis, unknowns, evidence);
+        let point = if mechanics.has_inertia_of(&point.mechanics) {
+            Point { mechanics, ..point }
+        } else {
+            Point::with_mechanics(point.hypothesis, mechanics, unknowns, evidence)
+        };
         let Point { hypothesis, mechanics, prediction, .. } = &point;
         let columns = columns(hypothesis, mechanics, prediction, unknowns, evidence);
         Self::with_columns(point, unknowns, columns, evidence)

@@ -16,6 +16,7 @@
 //! that never was close to it.
 
 mod belts;
+mod by_shear;
 mod ground;
 mod inertia;
 mod sheared;
@@ -26,6 +27,7 @@ use crate::evidence::{Evidence, Origin, Sample};
 use crate::hypothesis::{Hypothesis, Unknown};
 use crate::surface::{Steady, Surface};
 use belts::lagging;
+use by_shear::ByShear;
 use ground::{Acts, ByGround, acts};
 use inertia::{InertiaNear, Within};
 use nalgebra::Vector3;
@@ -59,6 +61,8 @@ pub struct Mechanics {
     ground: Option<Arc<ByGround>>,
     /// Departure by inertia.
     in_time: InTime,
+    /// The robot without laws of the shear stress, on ground that does not change.
+    simple: Arc<Model>,
     /// Laws of the shear stress.
     shear: Vec<ActiveEffect>,
 }
@@ -72,9 +76,8 @@ enum InTime {
     Found {
         /// Departure without shear-stress laws.
         inertia: InertiaNear,
-        /// Change of it by shear-stress laws, at each reading; none without such laws, or where the
-        /// hypothesis that it would be copied from had no inertial departure.
-        sheared: Option<Arc<Vec<Vec<Twist>>>>,
+        /// Change of it by shear-stress laws; none without such laws.
+        sheared: Option<ByShear>,
     },
     /// Taken from another robot, without shear-stress laws: the transient simulation of this one
     /// fails.
@@ -93,8 +96,15 @@ impl InTime {
         }
     }
 
-    /// Change of the departure by shear-stress laws, at each reading.
-    fn sheared(&self) -> Option<&Arc<Vec<Vec<Twist>>>> {
+    /// Forgets what only slopes need, which takes much memory.
+    fn forget_steps(&self) {
+        if let Self::Found { inertia, .. } = self {
+            inertia.forget_steps();
+        }
+    }
+
+    /// Change of the departure by shear-stress laws.
+    fn sheared(&self) -> Option<&ByShear> {
         match self {
             Self::Found { sheared, .. } => sheared.as_ref(),
             Self::Stationary | Self::OfAnother(_) | Self::Impossible(_) => None,
@@ -137,25 +147,33 @@ fn feels_inertia(vehicle: &Vehicle, effect: &ActiveEffect) -> bool {
 impl Mechanics {
     /// The mechanics of a hypothesis for this evidence.
     pub fn new(hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
-        Self::found(None, None, hypothesis, evidence, InertiaNear::here)
+        let within = Within::reach(&evidence.settings().mechanics);
+        Self::found(None, (&[], within), hypothesis, evidence, InertiaNear::here)
     }
 
-    /// Mechanics of a hypothesis with free unknowns. `before` is the mechanics of a similar
-    /// hypothesis: where its inertial effects are about equal, its inertial departure is reused,
-    /// since the error is of second order.
-    pub fn beside(
-        before: Option<&Self>,
+    /// Mechanics of a hypothesis. `before` is the mechanics of a similar hypothesis: where its
+    /// inertial effects are about equal, its inertial departure is reused, since the error is of
+    /// second order.
+    pub fn beside(before: Option<&Self>, hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
+        let within = Within::reach(&evidence.settings().mechanics);
+        Self::near(before, hypothesis, &[], evidence, within)
+    }
+
+    /// This mechanics of a hypothesis with the slopes of its departure by the free unknowns: itself
+    /// where they are known, otherwise the departure is simulated at the hypothesis.
+    pub fn with_slopes(
+        &self,
         hypothesis: &Hypothesis,
         free: &[Unknown],
         evidence: &Evidence,
     ) -> Self {
-        Self::near(
-            before,
-            hypothesis,
-            free,
-            evidence,
-            Within::reach(&evidence.settings().mechanics),
-        )
+        let InTime::Found { inertia, .. } = &self.in_time else { return self.clone() };
+        let within = Within::the_way(&evidence.settings().mechanics);
+        let known = Some(inertia);
+        let inertia = Self::inertia_beside(known, hypothesis, free, within);
+        let in_time = self.in_time(Some(self), (free, within), hypothesis, evidence, inertia);
+        in_time.forget_steps();
+        Self { in_time, ..self.clone() }
     }
 
     /// Mechanics of a hypothesis during a fit: the inertial departure is extrapolated linearly from
@@ -178,20 +196,30 @@ impl Mechanics {
         evidence: &Evidence,
         within: Within,
     ) -> Self {
-        Self::found(before, None, hypothesis, evidence, |inert, case| {
-            let known = before.and_then(|before| before.in_time.inertia());
+        let known = before.and_then(|before| before.in_time.inertia());
+        let inertia = Self::inertia_beside(known, hypothesis, free, within);
+        Self::found(before, (free, within), hypothesis, evidence, inertia)
+    }
+
+    /// Inertial departure of a hypothesis beside that of a similar one, with slopes by the free
+    /// unknowns.
+    fn inertia_beside(
+        known: Option<&InertiaNear>,
+        hypothesis: &Hypothesis,
+        free: &[Unknown],
+        within: Within,
+    ) -> impl FnOnce(Vec<ActiveEffect>, &Case) -> Result<InertiaNear, String> {
+        let delay = Instruments::of(hypothesis).sensor.delay;
+        move |inert, case| {
             let free = free.iter().copied().filter(|by| has_slope(*by, case.model));
             let free: Vec<Unknown> = free.collect();
-            let delay = Instruments::of(hypothesis).sensor.delay;
             InertiaNear::beside(known, inert, case, &free, delay, within)
-        })
+        }
     }
 
     /// Mechanics of a hypothesis that differs by one step, as of a finite difference. The inertial
-    /// departure is extrapolated wherever possible: a jump by a new simulation would be divided by
-    /// the step.
-    ///
-    /// Its change by shear-stress laws stays too, unless such a law is what differs.
+    /// departure, and its change by shear-stress laws, are extrapolated wherever possible: a jump
+    /// by a new simulation would be divided by the step.
     pub fn varied(&self, hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
         let inertia = |inert: Vec<ActiveEffect>, case: &Case| {
             let moved = match &self.in_time {
@@ -203,13 +231,15 @@ impl Mechanics {
             };
             moved.ok_or_else(|| "found for another robot".to_owned())
         };
-        Self::found(Some(self), Some(self), hypothesis, evidence, inertia)
+        Self::found(Some(self), (&[], Within::A_STEP), hypothesis, evidence, inertia)
     }
 
-    /// `kept` supplies the change of inertia by shear-stress laws where these laws are equal.
+    /// The mechanics of a hypothesis, with the departure by `inertia`. Its change by shear-stress
+    /// laws is extrapolated from `before` as far as `within` allows; it has slopes by those
+    /// unknowns of the laws that are free.
     fn found(
         before: Option<&Self>,
-        kept: Option<&Self>,
+        (free, within): (&[Unknown], Within),
         hypothesis: &Hypothesis,
         evidence: &Evidence,
         inertia: impl FnOnce(Vec<ActiveEffect>, &Case) -> Result<InertiaNear, String>,
@@ -228,20 +258,20 @@ impl Mechanics {
             effects.iter().filter(|effect| !effect.card().shears()).cloned().collect()
         };
         let drive = Instruments::of(hypothesis).drive;
-        let largest = settings.speed_headroom * evidence.fastest() * std::f64::consts::SQRT_2;
+        let largest = largest(evidence);
         let model = coarse(vehicle, constant.iter().cloned().collect());
         let resembling = before.map(|before| &before.surface);
         let surface = Surface::new(&model, largest, settings.speed_range, resembling);
         let steady = Arc::new(steady(&surface, &drive, evidence.tracks()));
         let shear: Vec<ActiveEffect> =
             constant.iter().filter(|effect| effect.card().shears()).cloned().collect();
-        let still =
-            Self { surface, steady, drive, ground: None, in_time: InTime::Stationary, shear };
+        let simple = Arc::new(coarse(vehicle, without_shear(&constant)));
+        let in_time = InTime::Stationary;
+        let still = Self { surface, steady, drive, ground: None, in_time, simple, shear };
         // An impossible hypothesis needs no departures, which cost most where no forces balance.
         if let Some(reason) = unbalanced(&still.surface, settings.max_unsolved_share) {
             return Self { in_time: InTime::Impossible(reason), ..still };
         }
-        let simple = coarse(vehicle, without_shear(&constant));
         let ground = (!varying.is_empty()).then(|| {
             let mut effects = without_shear(&constant);
             for effect in varying {
@@ -249,52 +279,52 @@ impl Mechanics {
             }
             let with = coarse(vehicle, effects);
             let known = before.and_then(|before| before.ground.as_deref());
-            Arc::new(ByGround::new([&with, &simple], &still.surface, &drive, evidence, known))
+            let grounds = [&with, &*still.simple];
+            Arc::new(ByGround::new(grounds, &still.surface, &drive, evidence, known))
         });
-        let inert = simple.effects().iter().filter(|effect| feels_inertia(vehicle, effect));
-        let inert: Vec<ActiveEffect> = inert.cloned().collect();
-        if inert.is_empty() || matches!(evidence.origin(), Origin::SteadyPoints(_)) {
-            return Self { ground, ..still };
-        }
-        let starts = hypothesis.starts_in(evidence);
-        let case = Case { vehicle, model: &simple, largest, drive: &drive, starts, evidence };
-        // Where the transient simulation fails, the departure of a similar hypothesis is taken.
-        let known = before.and_then(|before| before.in_time.inertia());
-        let in_time = match (inertia(inert, &case), known) {
-            (Ok(inertia), _) => {
-                let sheared = still.sheared(kept, &inertia, &case);
-                InTime::Found { inertia, sheared }
-            }
-            (Err(_), Some(known)) => InTime::OfAnother(known.unmoved()),
-            (Err(reason), None) => InTime::Impossible(reason),
-        };
+        let in_time = still.in_time(before, (free, within), hypothesis, evidence, inertia);
         Self { ground, in_time, ..still }
     }
 
-    /// Change of the inertial departure by shear-stress laws: copied from `kept` where the laws are
-    /// equal.
-    fn sheared(
+    /// Departure of this robot from its stationary motion; see [`Self::found`].
+    fn in_time(
         &self,
-        kept: Option<&Self>,
-        inertia: &InertiaNear,
-        case: &Case,
-    ) -> Option<Arc<Vec<Vec<Twist>>>> {
-        let kept = kept.filter(|kept| kept.shear == self.shear);
-        match kept.map(|kept| &kept.in_time) {
-            Some(InTime::Found { sheared, .. }) => sheared.clone(),
-            Some(InTime::Stationary | InTime::Impossible(_)) => None,
-            Some(InTime::OfAnother(_)) | None => (!self.shear.is_empty())
-                .then(|| Arc::new(inertia.sheared(&self.shear, &self.surface, case))),
+        before: Option<&Self>,
+        (free, within): (&[Unknown], Within),
+        hypothesis: &Hypothesis,
+        evidence: &Evidence,
+        inertia: impl FnOnce(Vec<ActiveEffect>, &Case) -> Result<InertiaNear, String>,
+    ) -> InTime {
+        let Self { simple, drive, shear, surface, .. } = self;
+        let vehicle = &hypothesis.vehicle;
+        let inert = simple.effects().iter().filter(|effect| feels_inertia(vehicle, effect));
+        let inert: Vec<ActiveEffect> = inert.cloned().collect();
+        if inert.is_empty() || matches!(evidence.origin(), Origin::SteadyPoints(_)) {
+            return InTime::Stationary;
+        }
+        let (largest, starts) = (largest(evidence), hypothesis.starts_in(evidence));
+        let case = Case { vehicle, model: simple, largest, drive, starts, evidence };
+        let known = before.and_then(|before| before.in_time.inertia());
+        match (inertia(inert, &case), known) {
+            (Ok(inertia), _) => {
+                let known = before.and_then(|before| before.in_time.sheared());
+                let beside =
+                    || ByShear::beside(known, shear, surface, (&inertia, &case), free, within);
+                let sheared = (!shear.is_empty()).then(beside);
+                InTime::Found { inertia, sheared }
+            }
+            // Where the transient simulation fails, the departure of a similar hypothesis is taken.
+            (Err(_), Some(known)) => InTime::OfAnother(known.unmoved()),
+            (Err(reason), None) => InTime::Impossible(reason),
         }
     }
 
-    /// Whether both inertial departures come from one transient simulation.
+    /// Whether both inertial departures come from one transient simulation, and their changes by
+    /// shear-stress laws from one solution.
     pub fn has_inertia_of(&self, other: &Self) -> bool {
-        match (self.in_time.inertia(), other.in_time.inertia()) {
-            (Some(here), Some(there)) => here.is_from(there),
-            (None, None) => true,
-            _ => false,
-        }
+        let inertia = [self, other].map(|one| one.in_time.inertia());
+        let sheared = [self, other].map(|one| one.in_time.sheared());
+        are_from_one(inertia, InertiaNear::is_from) && are_from_one(sheared, ByShear::is_from)
     }
 
     /// Departure of the twist (paper's frame) from the stationary one with which each run begins;
@@ -344,7 +374,7 @@ impl Mechanics {
                 let departure = departure.map(|departure| seen_from(&departure, offset));
                 let tracks = &evidence.tracks()[sample.run];
                 let steady = &steady[sample.run];
-                let sheared = self.in_time.sheared().map(|departures| &departures[sample.run]);
+                let sheared = self.in_time.sheared().map(|sheared| sheared.of_run(sample.run));
                 let pose = motion_over(tracks, sample, sensor.delay, |reading| {
                     let mut twist = steady[reading].twist(offset);
                     if let Some(departure) = &departure {
@@ -382,6 +412,20 @@ impl Mechanics {
             Vector3::new(after.x - forward, after.y - left, after.yaw - yaw) / STEP
         };
         Some(changes.each_ref().map(|changes| samples.iter().zip(changes).map(moved).collect()))
+    }
+}
+
+/// Largest speed of a belt for which motions are tabulated, m/s.
+fn largest(evidence: &Evidence) -> f64 {
+    evidence.settings().mechanics.speed_headroom * evidence.fastest() * std::f64::consts::SQRT_2
+}
+
+/// Whether there is neither, or both are from one computation.
+fn are_from_one<T>([here, there]: [Option<&T>; 2], is_from: impl Fn(&T, &T) -> bool) -> bool {
+    match (here, there) {
+        (Some(here), Some(there)) => is_from(here, there),
+        (None, None) => true,
+        _ => false,
     }
 }
 

@@ -124,7 +124,7 @@ pub fn fitted(
         hypothesis.beginning(evidence, twists)
     };
     let at = |hypothesis: Hypothesis, before: Option<&Mechanics>| {
-        let mechanics = Mechanics::beside(before, &hypothesis, &[], evidence);
+        let mechanics = Mechanics::beside(before, &hypothesis, evidence);
         let mut by_starts = mechanics.by_starts(&instruments, evidence)?;
         for (column, deviation) in by_starts.iter_mut().zip(deviations.iter()) {
             for value in column.iter_mut() {

@@ -130,11 +130,12 @@ impl Search {
     ) -> SegmentNoise {
         let likelihood = Likelihood { by: self, motions, residual };
         let climb = |start: Variances| self.climb.from(start, taken, |at| likelihood.terms(at));
-        let [first, second] = [measured, likelihood.white_alone()].map(|noise| {
+        let from = |noise: SegmentNoise| {
             let mut here = self.start(&noise);
             here[STAMP] = NONE;
             climb(here)
-        });
+        };
+        let (first, second) = rayon::join(|| from(measured), || from(likelihood.white_alone()));
         let without = if second.1 > first.1 + self.climb.min_gain { second } else { first };
         // Errors of the stamps, where the likelihood asks for them clearly.
         let with = climb(likelihood.with_stamps(without.0, measured.stamp));

@@ -6,6 +6,7 @@
 //! likelihood).
 
 use nalgebra::{Cholesky, SMatrix, SVector};
+use rayon::prelude::*;
 
 /// How to look for the maximum.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +39,7 @@ impl Climb {
         &self,
         start: SVector<f64, N>,
         taken: &SVector<f64, N>,
-        terms: impl Fn(&SVector<f64, N>) -> Vec<f64>,
+        terms: impl Fn(&SVector<f64, N>) -> Vec<f64> + Sync,
     ) -> (SVector<f64, N>, f64) {
         let sum = |terms: &[f64], here: &SVector<f64, N>| {
             terms.iter().sum::<f64>() + 0.5 * taken.dot(here)
@@ -70,13 +71,14 @@ impl Climb {
         here: &SVector<f64, N>,
         terms: &[f64],
         taken: &SVector<f64, N>,
-        of: &impl Fn(&SVector<f64, N>) -> Vec<f64>,
+        of: &(impl Fn(&SVector<f64, N>) -> Vec<f64> + Sync),
     ) -> SVector<f64, N> {
-        let there: [Vec<f64>; N] = std::array::from_fn(|k| {
+        let there = (0..N).into_par_iter().map(|k| {
             let mut moved = *here;
             moved[k] += self.difference;
             of(&moved)
         });
+        let there: Vec<Vec<f64>> = there.collect();
         let mut information = SMatrix::<f64, N, N>::identity() * 1e-3;
         let mut gradient = taken * 0.5;
         for (index, term) in terms.iter().enumerate() {

@@ -257,7 +257,7 @@ mod tests {
                 mechanics.ground.as_ref().expect("it varies").departures.clone()
             };
             let from_table = departures(&Mechanics::new(&there, &evidence));
-            let from_known = departures(&Mechanics::beside(Some(&before), &there, &[], &evidence));
+            let from_known = departures(&Mechanics::beside(Some(&before), &there, &evidence));
             for (a, b) in from_table.iter().zip(&from_known) {
                 let off = *a - *b;
                 // solves are exact to 1e-8 of the weight

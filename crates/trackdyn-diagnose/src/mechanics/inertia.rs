@@ -6,7 +6,7 @@
 //! and over any distance during a fit.
 
 use super::simulated::{Case, Inertia, are_same, size};
-use super::slope::{Slope, slopes};
+use super::slope::{self, Slope};
 use crate::evidence::Sample;
 use crate::hypothesis::Unknown;
 use crate::settings;
@@ -42,6 +42,11 @@ impl Within {
 
     /// A finite-difference step of any size.
     pub const A_STEP: Self = Self { known: f64::MAX, unknown: f64::MAX, late: f64::MAX };
+
+    /// Whether a departure is extrapolated over this distance in a parameter with a known slope.
+    pub fn knows(self, distance: f64) -> bool {
+        distance.abs() <= self.known
+    }
 }
 
 /// Inertial departure, valid near the simulated parameters.
@@ -87,19 +92,20 @@ impl InertiaNear {
         // radius.
         let alike = |slope: &&Arc<Slope>| slope.at.is_alike(&at);
         let before = before.map_or(&[][..], |before| &before.slopes);
-        let of = |by: &Unknown| before.iter().filter(alike).find(|slope| slope.by == *by);
-        let (known, missing): (Vec<Unknown>, Vec<Unknown>) =
-            free.iter().partition(|by| of(by).is_some());
-        let mut all: Vec<Arc<Slope>> = known.iter().filter_map(of).cloned().collect();
+        let mut slopes: Vec<Arc<Slope>> = before.iter().filter(alike).cloned().collect();
+        let is_missing = |by: &&Unknown| slopes.iter().all(|slope| slope.by != **by);
+        let missing: Vec<Unknown> = free.iter().filter(is_missing).copied().collect();
         if !missing.is_empty() {
             let steps = at.fine_steps()?;
-            all.extend(slopes(&missing, (&at, &steps), case, delay).into_iter().map(Arc::new));
+            let found = slope::slopes(&missing, (&at, &steps), case, delay);
+            slopes.extend(found.into_iter().map(Arc::new));
         }
-        // Only the search for starts, which has no free unknowns, asks for the steps again.
-        if case.starts.is_none() || !free.is_empty() {
-            at.forget_steps();
-        }
-        Ok(Self { at, slopes: all, shift: None })
+        Ok(Self { at, slopes, shift: None })
+    }
+
+    /// Forgets the steps of the simulation, which slopes and the search for starts need.
+    pub fn forget_steps(&self) {
+        self.at.forget_steps();
     }
 
     /// Departure extrapolated to a hypothesis; none where its inertial effects differ, or it is
@@ -119,7 +125,7 @@ impl InertiaNear {
         let mut shift: Option<Vec<Twist>> = None;
         for (by, change) in self.at.changes(case.vehicle, case.model.effects()) {
             match self.slope(by) {
-                Some(slope) if change.abs() <= within.known * size(by) => {
+                Some(slope) if within.knows(change / size(by)) => {
                     let still = || vec![Twist::zero(); slope.change.len()];
                     let sums = shift.get_or_insert_with(still);
                     for (sum, slope) in sums.iter_mut().zip(&slope.change) {
@@ -174,6 +180,11 @@ impl InertiaNear {
     /// Departure of the twist (paper's frame) from the stationary one with which each run begins.
     pub fn starts(&self) -> Option<&[Twist]> {
         self.at.starts.as_deref()
+    }
+
+    /// Whether slopes beside one serve beside the other.
+    pub fn is_alike(&self, other: &Self) -> bool {
+        self.is_from(other) || self.at.is_alike(&other.at)
     }
 
     /// Whether both come from one transient simulation.

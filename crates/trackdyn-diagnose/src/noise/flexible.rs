@@ -70,7 +70,8 @@ fn changes(
     hypothesis: &Hypothesis,
     unknowns: &[Unknown],
 ) -> Vec<Vec<Vector3<f64>>> {
-    let mechanics = Mechanics::beside(Some(&fit.mechanics), hypothesis, unknowns, evidence);
+    let mechanics = Mechanics::beside(Some(&fit.mechanics), hypothesis, evidence)
+        .with_slopes(hypothesis, unknowns, evidence);
     let prediction = mechanics.predict(&Instruments::of(hypothesis), evidence);
     derivatives(hypothesis, &mechanics, &prediction, unknowns, evidence)
 }

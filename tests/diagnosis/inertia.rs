@@ -99,7 +99,7 @@ fn a_law_of_the_slip_speed_takes_no_part_in_what_other_numbers_change() {
     for law in MILD {
         let here = plain.with_effect(law.parse().expect("an effect"));
         for (number, step) in [(ratio, 0.05), (Unknown::Cog(0), 0.02), (Unknown::Cog(1), 0.02)] {
-            let mechanics = Mechanics::beside(None, &here, &[number], &evidence);
+            let mechanics = Mechanics::beside(None, &here, &evidence);
             let there = here.with(number, here.get(number) + step);
             let on_the_way = mechanics.on_the_way(&there, &[number], &evidence);
             let on_the_way = on_the_way.predict(&Instruments::of(&there), &evidence);

@@ -2,6 +2,7 @@
 
 use crate::evidence::{Evidence, Sample};
 use crate::settings;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use trackdyn_core::Twist;
 use trackdyn_model::effect::{Card, Parameter, Role};
@@ -223,6 +224,20 @@ pub fn value(effects: &Effects, effect: EffectId, parameter: usize) -> f64 {
         || neutral(&effect.card().parameters[parameter]),
         |active| active.values()[parameter],
     )
+}
+
+/// Numbers of effects that differ, with the difference from here to there; an absent effect has
+/// the neutral ones.
+pub fn differences(here: &Effects, there: &Effects) -> Vec<(Unknown, f64)> {
+    let both: BTreeSet<EffectId> = here.iter().chain(there).map(ActiveEffect::effect).collect();
+    let places = both
+        .into_iter()
+        .flat_map(|effect| (0..effect.card().parameters.len()).map(move |place| (effect, place)));
+    let change = |(effect, place): (EffectId, usize)| {
+        let [here, there] = [here, there].map(|effects| value(effects, effect, place));
+        (Unknown::Effect(effect, place), there - here)
+    };
+    places.map(change).filter(|(_, change)| *change != 0.0).collect()
 }
 
 /// A vehicle with both friction coefficients multiplied by e^`level`.

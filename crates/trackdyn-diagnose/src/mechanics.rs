@@ -64,7 +64,7 @@ pub struct Mechanics {
     /// The robot without laws of the shear stress, on ground that does not change.
     simple: Arc<Model>,
     /// Laws of the shear stress.
-    shear: Vec<ActiveEffect>,
+    shear: Effects,
 }
 
 /// Departure of the transient from the stationary motion.
@@ -147,8 +147,9 @@ fn feels_inertia(vehicle: &Vehicle, effect: &ActiveEffect) -> bool {
 impl Mechanics {
     /// The mechanics of a hypothesis for this evidence.
     pub fn new(hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
-        let within = Within::reach(&evidence.settings().mechanics);
-        Self::found(None, (&[], within), hypothesis, evidence, InertiaNear::here)
+        let new = Self::beside(None, hypothesis, evidence);
+        new.in_time.forget_steps();
+        new
     }
 
     /// Mechanics of a hypothesis. `before` is the mechanics of a similar hypothesis: where its
@@ -169,8 +170,7 @@ impl Mechanics {
     ) -> Self {
         let InTime::Found { inertia, .. } = &self.in_time else { return self.clone() };
         let within = Within::the_way(&evidence.settings().mechanics);
-        let known = Some(inertia);
-        let inertia = Self::inertia_beside(known, hypothesis, free, within);
+        let inertia = Self::inertia_beside(Some(inertia), hypothesis, free, within);
         let in_time = self.in_time(Some(self), (free, within), hypothesis, evidence, inertia);
         in_time.forget_steps();
         Self { in_time, ..self.clone() }
@@ -263,7 +263,7 @@ impl Mechanics {
         let resembling = before.map(|before| &before.surface);
         let surface = Surface::new(&model, largest, settings.speed_range, resembling);
         let steady = Arc::new(steady(&surface, &drive, evidence.tracks()));
-        let shear: Vec<ActiveEffect> =
+        let shear: Effects =
             constant.iter().filter(|effect| effect.card().shears()).cloned().collect();
         let simple = Arc::new(coarse(vehicle, without_shear(&constant)));
         let in_time = InTime::Stationary;

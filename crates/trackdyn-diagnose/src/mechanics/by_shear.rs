@@ -11,12 +11,13 @@
 use super::coarse;
 use super::inertia::{InertiaNear, Within};
 use super::simulated::{Case, are_same, typical};
-use crate::hypothesis::{Unknown, with_values};
+use super::slope;
+use crate::hypothesis::{Unknown, differences, find};
 use crate::surface::Surface;
 use rayon::prelude::*;
 use std::sync::Arc;
 use trackdyn_core::Twist;
-use trackdyn_model::ActiveEffect;
+use trackdyn_model::Effects;
 
 /// Step of a law's number in typical sizes: the change is good to a percent of what a law of
 /// typical size does.
@@ -37,7 +38,7 @@ type Changes = Vec<Vec<Twist>>;
 
 /// The change by these laws beside this departure.
 struct Solved {
-    laws: Vec<ActiveEffect>,
+    laws: Effects,
     inertia: InertiaNear,
     changes: Changes,
 }
@@ -57,7 +58,7 @@ impl ByShear {
     /// robot without; slopes by the `free` unknowns are computed where missing.
     pub fn beside(
         before: Option<&Self>,
-        laws: &[ActiveEffect],
+        laws: &Effects,
         with: &Surface,
         (inertia, case): (&InertiaNear, &Case),
         free: &[Unknown],
@@ -71,7 +72,7 @@ impl ByShear {
         if let Some(near) = beside_it.filter(knows).and_then(|near| near.to(laws, within)) {
             return near;
         }
-        let at = match beside_it.filter(|near| near.at.laws == laws) {
+        let at = match beside_it.filter(|near| near.at.laws == *laws) {
             Some(near) => Arc::clone(&near.at),
             None => Arc::new(Solved::new(laws, with, inertia, case)),
         };
@@ -87,9 +88,12 @@ impl ByShear {
 
     /// The change extrapolated to other numbers of the laws; none where these are other laws, or
     /// farther away than `within` allows.
-    fn to(&self, laws: &[ActiveEffect], within: Within) -> Option<Self> {
+    fn to(&self, laws: &Effects, within: Within) -> Option<Self> {
+        if !are_same(&self.at.laws, laws) {
+            return None;
+        }
         let mut moved: Option<Changes> = None;
-        for (by, change) in differences(&self.at.laws, laws)? {
+        for (by, change) in differences(&self.at.laws, laws) {
             let slope = self.slope(by).filter(|_| within.knows(change / typical(by)))?;
             let sums = moved.get_or_insert_with(|| self.at.changes.clone());
             for (sums, slopes) in sums.iter_mut().zip(&slope.changes) {
@@ -117,15 +121,15 @@ impl ByShear {
 }
 
 impl Solved {
-    fn new(laws: &[ActiveEffect], with: &Surface, inertia: &InertiaNear, case: &Case) -> Self {
+    fn new(laws: &Effects, with: &Surface, inertia: &InertiaNear, case: &Case) -> Self {
         let changes = inertia.sheared(laws, with, case);
-        Self { laws: laws.to_vec(), inertia: inertia.unmoved(), changes }
+        Self { laws: laws.clone(), inertia: inertia.unmoved(), changes }
     }
 
     /// Whether slopes of one serve for the other.
     fn is_alike(&self, other: &Self, case: &Case) -> bool {
         let reach = Within::reach(case.settings());
-        let mut changes = differences(&self.laws, &other.laws).into_iter().flatten();
+        let mut changes = differences(&self.laws, &other.laws).into_iter();
         are_same(&self.laws, &other.laws)
             && changes.all(|(by, change)| reach.knows(change / typical(by)))
             && self.inertia.is_alike(&other.inertia)
@@ -135,14 +139,12 @@ impl Solved {
 impl Slope {
     /// The derivative by this number; none where it cannot be changed.
     fn new(by: Unknown, at: &Arc<Solved>, with: &Surface, case: &Case) -> Option<Self> {
-        let step = STEP * typical(by);
-        let laws = |step: f64| -> Option<Vec<ActiveEffect>> {
-            let moved = |law: &ActiveEffect| moved(law, by, step);
-            let laws: Vec<ActiveEffect> = at.laws.iter().map(moved).collect();
-            let (_, change) = differences(&at.laws, &laws)?.into_iter().next()?;
-            ((change / step - 1.0).abs() < 1e-6).then_some(laws)
-        };
-        let (step, laws) = [step, -step].into_iter().find_map(|step| Some((step, laws(step)?)))?;
+        let Unknown::Effect(effect, place) = by else { return None };
+        let (law, step) = (find(&at.laws, effect)?, STEP * typical(by));
+        let stepped = |step: f64| Some((step, slope::moved(law, place, step)?));
+        let (step, law) = [step, -step].into_iter().find_map(stepped)?;
+        let mut laws = at.laws.clone();
+        laws.insert(law);
         let mut effects = case.model.effects().clone();
         for law in &laws {
             effects.insert(law.clone());
@@ -159,31 +161,6 @@ impl Slope {
     }
 }
 
-/// A law with one number changed, where it is of that law, and held within its range.
-fn moved(law: &ActiveEffect, by: Unknown, step: f64) -> ActiveEffect {
-    match by {
-        Unknown::Effect(effect, place) if law.effect() == effect => {
-            let mut values = law.values().to_vec();
-            values[place] += step;
-            with_values(law, &values)
-        }
-        _ => law.clone(),
-    }
-}
-
-/// Numbers that differ, with the difference from here to there; none where the laws do.
-fn differences(here: &[ActiveEffect], there: &[ActiveEffect]) -> Option<Vec<(Unknown, f64)>> {
-    let of_law = |(here, there): (&ActiveEffect, &ActiveEffect)| {
-        let effect = here.effect();
-        let pairs = here.values().iter().zip(there.values()).enumerate();
-        let changes =
-            pairs.map(|(place, (here, there))| (Unknown::Effect(effect, place), there - here));
-        changes.collect::<Vec<_>>()
-    };
-    let all = || here.iter().zip(there).flat_map(of_law);
-    are_same(here, there).then(|| all().filter(|(_, change)| *change != 0.0).collect())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -195,7 +172,7 @@ mod tests {
     use nalgebra::Vector3;
     use trackdyn_core::{Pose, real};
     use trackdyn_estimate::weighting::SegmentNoise;
-    use trackdyn_model::VehicleFile;
+    use trackdyn_model::{ActiveEffect, VehicleFile};
     use trackdyn_recording::TrackSample;
 
     /// A robot with inertia and this law.

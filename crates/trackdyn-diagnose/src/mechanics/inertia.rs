@@ -14,7 +14,7 @@ use crate::surface::Surface;
 use std::sync::Arc;
 use trackdyn_core::Twist;
 use trackdyn_model::effect::Card;
-use trackdyn_model::{ActiveEffect, Drive};
+use trackdyn_model::{ActiveEffect, Drive, Effects};
 
 /// Largest distances to the simulated parameters over which a departure is extrapolated, in typical
 /// sizes.
@@ -150,7 +150,7 @@ impl InertiaNear {
 
     /// Change of the departure by shear-stress laws, at each reading, at the simulated parameters.
     /// `with` is the table of stationary motions with the laws, `case` the robot without.
-    pub fn sheared(&self, laws: &[ActiveEffect], with: &Surface, case: &Case) -> Vec<Vec<Twist>> {
+    pub fn sheared(&self, laws: &Effects, with: &Surface, case: &Case) -> Vec<Vec<Twist>> {
         let without = Surface::new(
             case.model,
             case.largest,
@@ -184,7 +184,7 @@ impl InertiaNear {
 
     /// Whether slopes beside one serve beside the other.
     pub fn is_alike(&self, other: &Self) -> bool {
-        self.is_from(other) || self.at.is_alike(&other.at)
+        self.at.is_alike(&other.at)
     }
 
     /// Whether both come from one transient simulation.

@@ -4,18 +4,18 @@ use super::belts::lagging;
 use super::sheared::{self, Without};
 use super::{TASK, motion_over};
 use crate::evidence::{Evidence, Sample};
-use crate::hypothesis::{Unknown, typical_size, value};
+use crate::hypothesis::{Unknown, differences, typical_size};
 use crate::settings;
 use crate::surface::Surface;
 use nalgebra::Vector3;
 use rayon::prelude::*;
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
 use trackdyn_core::{PerSide, Plant, Pose, Side, Trajectory, Twist};
 use trackdyn_model::contact::Resolution;
 use trackdyn_model::transient::{Step, mean_of_stages, tangents};
-use trackdyn_model::{ActiveEffect, Circumstance, Drive, EffectId, Effects, Model, Vehicle};
+use trackdyn_model::{ActiveEffect, Circumstance, Drive, Effects, Model, Vehicle};
 use trackdyn_model::{Forces, Transient};
 use trackdyn_recording::hold::pieces;
 use trackdyn_recording::{TrackSample, smoothed};
@@ -223,17 +223,8 @@ impl Inertia {
         let level = if level.abs() < LN_FRICTION_ROUNDING { 0.0 } else { level };
         let level = std::iter::once((Unknown::FrictionLevel, level));
         let cog = [0, 1].map(|k| (Unknown::Cog(k), vehicle.cog[k] - self.vehicle.cog[k]));
-        let change = |effect: EffectId, place: usize| {
-            let [here, there] =
-                [self.model.effects(), effects].map(|effects| value(effects, effect, place));
-            (Unknown::Effect(effect, place), there - here)
-        };
-        let both = self.model.effects().iter().chain(effects).map(ActiveEffect::effect);
-        let both: BTreeSet<EffectId> = both.collect();
-        let of_effects = both.into_iter().flat_map(|effect| {
-            (0..effect.card().parameters.len()).map(move |place| change(effect, place))
-        });
-        level.chain(cog).chain(of_effects).filter(|(_, change)| *change != 0.0).collect()
+        let of_vehicle = level.chain(cog).filter(|(_, change)| *change != 0.0);
+        of_vehicle.chain(differences(self.model.effects(), effects)).collect()
     }
 
     /// Whether slopes of one robot serve for the other.
@@ -250,11 +241,7 @@ impl Inertia {
     /// Change of the transient motion by shear-stress laws, at each reading. Their change of the
     /// stationary motion is the difference between the tables `with` and `without` them; other
     /// differences from this robot are covered by the slopes.
-    pub fn sheared(
-        &self,
-        laws: &[ActiveEffect],
-        [with, without]: [&Surface; 2],
-    ) -> Vec<Vec<Twist>> {
+    pub fn sheared(&self, laws: &Effects, [with, without]: [&Surface; 2]) -> Vec<Vec<Twist>> {
         let added = |belts: &[TrackSample]| -> Vec<Twist> {
             let [with, without] = [with, without].map(|surface| stationary(surface, belts));
             with.iter().zip(without).map(|(with, without)| *with - without).collect()
@@ -483,10 +470,11 @@ pub fn typical(by: Unknown) -> f64 {
     by.parameter().map_or(1.0, typical_size)
 }
 
-/// Whether both lists hold the same effects, with any values.
-pub fn are_same(known: &[ActiveEffect], effects: &[ActiveEffect]) -> bool {
-    let ids = |effects: &[ActiveEffect]| -> Vec<&str> {
-        effects.iter().map(|effect| effect.card().id).collect()
-    };
-    ids(known) == ids(effects)
+/// Whether both hold the same effects, with any values.
+pub fn are_same<'a>(
+    known: impl IntoIterator<Item = &'a ActiveEffect>,
+    effects: impl IntoIterator<Item = &'a ActiveEffect>,
+) -> bool {
+    let id = |effect: &ActiveEffect| effect.card().id;
+    known.into_iter().map(id).eq(effects.into_iter().map(id))
 }

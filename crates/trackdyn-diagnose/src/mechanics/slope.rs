@@ -2,12 +2,12 @@
 
 use super::coarse;
 use super::simulated::{Case, Inertia, size, typical};
-use crate::hypothesis::{Unknown, active, find, with_friction};
+use crate::hypothesis::{Unknown, find, with_friction, with_values};
 use rayon::prelude::*;
 use std::sync::Arc;
 use trackdyn_core::Twist;
-use trackdyn_model::Model;
 use trackdyn_model::transient::Step;
+use trackdyn_model::{ActiveEffect, Model};
 
 /// Step of a parameter in typical sizes: forces are exact, and the tables of stationary motion are
 /// good to a millionth.
@@ -65,17 +65,20 @@ fn stepped(by: Unknown, case: &Case, sign: f64) -> Option<(Model, f64)> {
             Some((coarse(&with_friction(vehicle, step), effects.clone()), step))
         }
         Unknown::Effect(effect, place) => {
-            let mut values = find(effects, effect)?.values().to_vec();
-            let [low, high] = effect.card().parameters[place].range;
-            values[place] += step;
-            if !(low..=high).contains(&values[place]) {
-                return None;
-            }
+            let moved = moved(find(effects, effect)?, place, step)?;
             let mut effects = effects.clone();
-            effects.insert(active(effect, &values));
+            effects.insert(moved);
             Some((coarse(vehicle, effects), step))
         }
     }
+}
+
+/// An effect with one number changed by a step; none where it would leave its physical range.
+pub fn moved(effect: &ActiveEffect, place: usize, step: f64) -> Option<ActiveEffect> {
+    let mut values = effect.values().to_vec();
+    let [low, high] = effect.card().parameters[place].range;
+    values[place] += step;
+    (low..=high).contains(&values[place]).then(|| with_values(effect, &values))
 }
 
 /// Whether the departure can be differentiated by a parameter: one whose typical size is zero has

@@ -86,11 +86,8 @@ impl Base {
 
     /// The base refitted to evidence with other noise or scale.
     pub fn refitted(&self, evidence: &Weighted) -> Self {
-        let again = |fit: &Fit| {
-            let (start, before) = (fit.hypothesis.clone(), Some(&fit.mechanics));
-            Fit::new(start, &fit.unknowns, evidence, before)
-        };
-        Self { as_filed: again(&self.as_filed), fit: again(&self.fit), ..self.clone() }
+        let [as_filed, fit] = [&self.as_filed, &self.fit].map(|fit| fit.refitted(evidence));
+        Self { as_filed, fit, ..self.clone() }
     }
 }
 

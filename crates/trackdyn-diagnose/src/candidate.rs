@@ -45,6 +45,19 @@ pub struct Signature {
     pub column: Vec<Vector3<f64>>,
 }
 
+impl Catalogue {
+    /// The signatures whitened by evidence, which were by other evidence of the same samples.
+    pub fn whitened_by(mut self, evidence: &Weighted, before: &Weighted) -> Self {
+        self.entries.par_iter_mut().for_each(|(_, signatures)| {
+            for signature in signatures {
+                let column = std::mem::take(&mut signature.column);
+                signature.column = evidence.white(before.raw(column));
+            }
+        });
+        self
+    }
+}
+
 impl Variant {
     /// Indices of the sizes among the parameters.
     pub fn sizes(&self) -> Vec<usize> {

@@ -360,6 +360,12 @@ impl Fit {
         Self::linearised(point, unknowns, evidence)
     }
 
+    /// This hypothesis fitted to other evidence, starting from its values.
+    pub fn refitted(&self, evidence: &Weighted) -> Self {
+        let Self { hypothesis, unknowns, mechanics, .. } = self;
+        Self::new(hypothesis.clone(), unknowns, evidence, Some(mechanics))
+    }
+
     /// This hypothesis on other evidence, with its Jacobian, without a fit.
     pub fn on(&self, evidence: &Weighted) -> Self {
         Self::at(self.hypothesis.clone(), &self.unknowns, evidence, None)

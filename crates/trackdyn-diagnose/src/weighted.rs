@@ -299,6 +299,15 @@ impl Weighted {
         })
     }
 
+    /// The evidence with residuals scaled down to the noise; none where they do not exceed it by
+    /// more than they did.
+    pub fn rescaled(&self, residual: &[Vector3<f64>]) -> Option<Self> {
+        let scale = self.residual_scale(residual).map(|scale| scale.max(1.0));
+        let most = self.settings().noise.max_residual_scale;
+        let grows = scale.iter().zip(&self.scale).any(|(scale, present)| *scale > most * present);
+        grows.then(|| self.with_scale(scale))
+    }
+
     /// Colours a white column in place: the inverse of [`Weighted::whiten`].
     pub fn colour(&self, column: &mut [Vector3<f64>]) {
         match &self.whitening {
@@ -329,6 +338,15 @@ impl Weighted {
         let is_measured =
             |sample| (0..3).filter(|&channel| self.is_measured(sample, channel)).count();
         (0..self.samples().len()).map(is_measured).sum()
+    }
+
+    /// Whether all samples that are lost here are lost in other evidence, too.
+    pub fn lost_are_lost(&self, other: &Self) -> bool {
+        (0..self.samples().len()).all(|sample| {
+            (0..3).all(|channel| {
+                self.is_measured(sample, channel) || !other.is_measured(sample, channel)
+            })
+        })
     }
 
     /// Whether a channel of a sample was measured.

@@ -90,7 +90,7 @@ impl Cleaned {
         watch: &Watch,
     ) -> Result<Self, Cancelled> {
         let steps = seen.steps();
-        let as_read = Self { seen, unseen };
+        let (as_read, base) = (Self { seen, unseen }, &base.fit);
         let even = as_read.unless_worse(base, Evidence::with_regular_stamps, watch)?;
         let joined = even.unless_worse(base, Evidence::with_held_readings_joined, watch)?;
         joined.unless_worse(base, |evidence| evidence.with_speeds_between_ticks(steps), watch)
@@ -99,17 +99,20 @@ impl Cleaned {
     /// Evidence with cleaned readings and its re-estimated noise, unless the base fits worse.
     fn unless_worse(
         self,
-        base: &Base,
+        base: &Fit,
         cleaned: impl Fn(&Evidence) -> Evidence,
         watch: &Watch,
     ) -> Result<Self, Cancelled> {
         watch.go_on()?;
-        let base = base.refitted(&self.seen);
         let tried = self.seen.with_readings(&cleaned);
+        if tried.tracks() == self.seen.tracks() {
+            return Ok(self);
+        }
+        let base = base.refitted(&self.seen);
         let again = base.refitted(&tried);
         let most = self.seen.settings().evidence.max_rise_by_cleaning;
-        if again.fit.objective < base.fit.objective + most {
-            let seen = with_remaining_noise(&tried, &again.fit, watch)?;
+        if again.objective < base.objective + most {
+            let seen = with_remaining_noise(&tried, &again, watch)?;
             Ok(Self { seen, unseen: self.unseen.as_ref().map(cleaned) })
         } else {
             Ok(self)

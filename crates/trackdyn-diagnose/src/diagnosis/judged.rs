@@ -7,7 +7,7 @@ use crate::hypothesis::typical;
 use crate::mechanics::is_instrument;
 use crate::progress::{Cancelled, Watch};
 use crate::resampling::Resampling;
-use crate::search::{Found, Screened, Search};
+use crate::search::{Found, Known, Screened, Search};
 use crate::uncertainty::{Interval, Level, Uncertainty};
 use crate::verdict::{
     Basis, Constants, Verdict, judge, judge_constants, judge_instruments, unless_unsure,
@@ -77,14 +77,15 @@ impl Judged {
         Ok(Self { search, screened, constants, best, friction_level, missing, refused })
     }
 
-    /// Evidence with residuals scaled down where unexplained residuals exceed the noise; none where
-    /// they do not.
+    /// The evidence with the residuals of the best hypothesis scaled down to the noise; none where
+    /// they do not exceed it.
     pub fn rescaled(&self) -> Option<Weighted> {
-        let evidence = &self.search.evidence;
-        let scale = evidence.residual_scale(&self.best.fit.residual);
-        let most = evidence.settings().noise.max_residual_scale;
-        let grows = scale.iter().any(|scale| *scale > most);
-        grows.then(|| evidence.with_scale(scale.map(|scale| scale.max(1.0))))
+        self.search.evidence.rescaled(&self.best.fit.residual)
+    }
+
+    /// What the search found, for one with other noise.
+    pub fn into_known(self) -> Known {
+        self.search.into_known(self.best)
     }
 }
 

@@ -13,19 +13,19 @@ use crate::error::Error;
 use crate::evidence::Evidence;
 use crate::progress::{Observer, Stage, Watch};
 use crate::proposal::{Unexplained, propose};
-use crate::search::Search;
+use crate::search::{Known, Search};
 use crate::verdict::Constants;
 use crate::weighted::Weighted;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use trackdyn_model::{ActiveEffect, EffectId, VehicleFile};
 
-/// Stages in one round of search and verdicts.
-const ROUND: usize = searched::STAGES_SHARPENED + 1;
+/// Stages of a search.
+const SEARCH: usize = searched::STAGES_SHARPENED;
 
-/// Stages of the longest course: noise, readings, beginnings, two rounds, location, held-out runs,
-/// proposal and limits.
-pub const STAGES: usize = 3 + 2 * ROUND + 4;
+/// Stages of the longest course: noise, readings and beginnings; search, search rescaled and
+/// verdicts; search and verdicts once more; location, held-out runs, proposal and limits.
+pub const STAGES: usize = 3 + (2 * SEARCH + 1) + (SEARCH + 1) + 4;
 
 /// A diagnosis with the search that it rests on, for further questions to the same evidence.
 pub struct Examination {
@@ -88,22 +88,31 @@ pub fn examine(
     let seen = own.unwrap_or(seen);
 
     // Signatures and search, repeated with smaller noise where the best hypothesis shows that the
-    // noise was overestimated. Then the verdicts.
-    let judged_in = |seen: &Weighted| -> Result<Judged, Error> {
-        let base = base.refitted(seen);
-        let searched = Searched::sharpened(seen, base, &suspects, watch)?;
-        let judged = || Judged::of(searched, file, resampling, watch);
-        watch.try_stage(Stage::Verdicts, judged).map_err(Error::from)
+    // noise was overestimated. A repeat begins with what was found before.
+    let searched_in = |seen: &Weighted, known: Known| {
+        Searched::sharpened(seen, base.refitted(seen), &suspects, known, watch)
     };
-    let first = judged_in(&seen)?;
+    let first = searched_in(&seen, Known::default())?;
 
-    // Rescaled: unexplained residuals larger than the noise make claims too certain, so search and
-    // verdicts are repeated with the residuals scaled down.
-    let judged = if let Some(seen) = first.rescaled() {
-        drop(first); // its signatures take as much memory as the next ones
-        judged_in(&seen)?
+    // Rescaled: unexplained residuals larger than the noise would make claims too certain, so the
+    // evidence is searched again with the residuals scaled down.
+    let searched = if let Some(seen) = first.rescaled() {
+        searched_in(&seen, first.into_known())?
     } else {
-        watch.skip(ROUND);
+        watch.skip(SEARCH);
+        first
+    };
+
+    // Verdicts, and once more where refused effects leave larger residuals.
+    let judged = |searched: Searched| {
+        let judged = || Judged::of(searched, file, resampling, watch);
+        watch.try_stage(Stage::Verdicts, judged)
+    };
+    let first = judged(searched)?;
+    let judged = if let Some(seen) = first.rescaled() {
+        judged(searched_in(&seen, first.into_known())?)?
+    } else {
+        watch.skip(SEARCH + 1);
         first
     };
 

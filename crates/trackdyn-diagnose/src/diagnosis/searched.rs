@@ -4,7 +4,7 @@ use crate::base::Base;
 use crate::candidate::{Beside, Catalogue, candidates};
 use crate::noise::sharper;
 use crate::progress::{Cancelled, Stage, Watch};
-use crate::search::{Found, Screened, Search};
+use crate::search::{Found, Known, Screened, Search};
 use crate::weighted::Weighted;
 use std::sync::Arc;
 use trackdyn_model::EffectId;
@@ -24,14 +24,15 @@ pub(super) struct Searched {
 }
 
 impl Searched {
-    /// Searches the evidence once.
+    /// Searches the evidence once, beginning with what is known.
     fn of(
         seen: &Weighted,
         base: Base,
         suspects: &[EffectId],
+        known: Known,
         watch: &Watch,
     ) -> Result<Self, Cancelled> {
-        let signed = || with_signatures(seen, base, suspects, watch);
+        let signed = || with_signatures(seen, base, suspects, known, watch);
         let search = watch.try_stage(Stage::Signatures, signed)?;
         watch.try_stage(Stage::Search, || {
             let screened = search.screen(&search.nothing());
@@ -41,38 +42,54 @@ impl Searched {
     }
 
     /// Searches the evidence, and once more where the best hypothesis leaves less noise: it
-    /// explains what contrasts cannot, which had been counted as noise.
+    /// explains what contrasts cannot, which had been counted as noise. `known` is from an earlier
+    /// search with other noise.
     pub fn sharpened(
         seen: &Weighted,
         base: Base,
         suspects: &[EffectId],
+        known: Known,
         watch: &Watch,
     ) -> Result<Self, Cancelled> {
-        let first = Self::of(seen, base, suspects, watch)?;
+        let first = Self::of(seen, base, suspects, known, watch)?;
         if let Some(seen) = sharper(&first.search.evidence, &first.found.fit, watch)? {
             let base = first.search.base.refitted(&seen);
-            drop(first); // its signatures take as much memory as the next ones
-            Self::of(&seen, base, suspects, watch)
+            Self::of(&seen, base, suspects, first.into_known(), watch)
         } else {
             watch.skip(STAGES);
             Ok(first)
         }
     }
+
+    /// The evidence with the residuals of the best hypothesis scaled down to the noise; none where
+    /// they do not exceed it.
+    pub fn rescaled(&self) -> Option<Weighted> {
+        self.search.evidence.rescaled(&self.found.fit.residual)
+    }
+
+    /// What the search found, for one with other noise.
+    pub fn into_known(self) -> Known {
+        self.search.into_known(self.found)
+    }
 }
 
 /// A search with the signatures of all candidates, and of refined variants between them that gain
-/// more.
+/// more; with those that are known, where they serve.
 fn with_signatures(
     seen: &Weighted,
     base: Base,
     suspects: &[EffectId],
+    mut known: Known,
     watch: &Watch,
 ) -> Result<Search, Cancelled> {
     let base = Arc::new(base);
+    if let Some(catalogue) = known.take_signatures(&base, seen) {
+        return Ok(Search::new(seen.clone(), base, catalogue).with_known(known));
+    }
     let tried = candidates(suspects, &base.instruments, seen);
     let beside = Beside::new(&base.fit.hypothesis, seen);
     let catalogue = Catalogue { entries: beside.signatures_while(&tried, watch.of_tasks())? };
     let search = Search::new(seen.clone(), Arc::clone(&base), catalogue);
     let between = search.between(&beside, watch)?;
-    Ok(search.with_more(between))
+    Ok(search.with_more(between).with_known(known))
 }

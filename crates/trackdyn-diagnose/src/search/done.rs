@@ -12,14 +12,22 @@ use trackdyn_model::EffectId;
 #[derive(Default)]
 pub struct Done(Mutex<Vec<(Key, Found)>>);
 
+/// What a refit depends on.
+#[derive(PartialEq)]
+pub enum Key {
+    /// A step from another hypothesis.
+    Step(Box<Start>, Step),
+    /// These effects, from where an earlier search left them.
+    Again(Vec<EffectId>),
+}
+
 /// Start of a refit.
 #[derive(PartialEq)]
-pub struct Key {
+pub struct Start {
     from: Hypothesis,
     unknowns: Vec<Unknown>,
     /// Distinguishes starts that differ in their inertial departure.
     objective: f64,
-    step: Step,
 }
 
 /// What a refit changes.
@@ -33,10 +41,10 @@ pub enum Step {
 
 impl Key {
     /// Key of a step from a hypothesis.
-    pub fn new(from: &Found, step: Step) -> Self {
+    pub fn step(from: &Found, step: Step) -> Self {
         let Found { fit, .. } = from;
         let (from, unknowns) = (fit.hypothesis.clone(), fit.unknowns.clone());
-        Self { from, unknowns, objective: fit.objective, step }
+        Self::Step(Box::new(Start { from, unknowns, objective: fit.objective }), step)
     }
 }
 
@@ -49,6 +57,12 @@ impl Done {
             self.0.lock().unwrap_or_else(PoisonError::into_inner).push((key, found.clone()));
             found
         })
+    }
+
+    /// All results.
+    pub fn into_found(self) -> impl Iterator<Item = Found> {
+        let done = self.0.into_inner().unwrap_or_else(PoisonError::into_inner);
+        done.into_iter().map(|(_, found)| found)
     }
 
     fn known(&self, key: &Key) -> Option<Found> {

@@ -26,6 +26,9 @@ impl Search {
             return Ok(None);
         }
         let (effects, unknowns) = beside.extended(&inertial);
+        if let Some(found) = self.again(&effects) {
+            return Ok(Some(found));
+        }
         let mut clocks =
             vec![hypothesis.clone(), without_clock(hypothesis, &self.base.as_filed.hypothesis)];
         clocks.dedup();

@@ -9,6 +9,11 @@ group! {
         size_steps: [f64; 3] = [1.0, 0.2, -0.2], "", [-10.0, 10.0],
             "A typical step may tip a robot.",
             "The screen promises wrong sizes.";
+        /// Change of the motion that the base predicts, as a share of it, below which signatures
+        /// serve again.
+        max_base_change: f64 = 0.05, "", [0.0, 1.0],
+            "They change by as little, and sizes are refitted.",
+            "Higher: the screen is of another robot.";
         /// Typical sizes at which shear laws are taken.
         shear_sizes: [f64; 3] = [1.0, 0.2, 0.05], "", [1e-3, 10.0],
             "A size may be the scale of a law.",

@@ -1,4 +1,5 @@
-//! One CSV table with times, track speeds and poses, whose columns are named by the user.
+//! One CSV table with times, track speeds and poses or the yaw rate of a gyroscope, whose columns
+//! are named by the user.
 //!
 //! A [`Columns`] is written as `KEY=COLUMN`, several with commas between, such as
 //! `t=Time:ms,v_l=left_rpm:rpm,v_r=-right_rpm:rpm,x=pos_x,y=pos_y,yaw=heading:deg`. A unit may
@@ -31,11 +32,12 @@ enum Key {
     Qy,
     Qz,
     Qw,
+    Gyro,
     Run,
 }
 
 /// Keys by their names; the first name of each is the one that messages use.
-const KEYS: [(&str, Key); 13] = [
+const KEYS: [(&str, Key); 14] = [
     ("t", Key::Time),
     ("v_l", Key::Left),
     ("v_left", Key::Left),
@@ -48,10 +50,11 @@ const KEYS: [(&str, Key); 13] = [
     ("qy", Key::Qy),
     ("qz", Key::Qz),
     ("qw", Key::Qw),
+    ("gyro_z", Key::Gyro),
     ("run", Key::Run),
 ];
 
-/// Units of times in s, of lengths in m, and of angles in rad.
+/// Units of times in s, of lengths in m, of angles in rad, and of yaw rates in rad/s.
 const TIMES: [(&str, f64); 7] = [
     ("s", 1.0),
     ("ms", 1e-3),
@@ -64,6 +67,7 @@ const TIMES: [(&str, f64); 7] = [
 const LENGTHS: [(&str, f64); 5] =
     [("m", 1.0), ("cm", 1e-2), ("mm", 1e-3), ("km", 1e3), ("ft", 0.3048)];
 const ANGLES: [(&str, f64); 2] = [("rad", 1.0), ("deg", TAU / 360.0)];
+const RATES: [(&str, f64); 2] = [("rad/s", 1.0), ("deg/s", TAU / 360.0)];
 
 /// The unit of headings of a compass: degrees clockwise from the y axis, which is north.
 const COMPASS: &str = "compass";
@@ -97,6 +101,7 @@ impl Key {
             Self::X | Self::Y => factor(&LENGTHS),
             Self::Yaw if name == COMPASS => Some(Unit::Compass),
             Self::Yaw => factor(&ANGLES),
+            Self::Gyro => factor(&RATES),
             Self::Qx | Self::Qy | Self::Qz | Self::Qw | Self::Run => None,
         }
     }
@@ -110,7 +115,7 @@ struct Column {
     unit: Unit,
 }
 
-/// Which columns of a table hold times, track speeds and poses.
+/// Which columns of a table hold times, track speeds, poses and yaw rates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Columns {
     text: String,
@@ -136,7 +141,7 @@ impl FromStr for Columns {
             let Some((key, name)) = known.filter(|(_, name)| !name.is_empty()) else {
                 return Err(format!(
                     "{part:?}: expected KEY=COLUMN with a key of t, v_l, v_r, x, y, yaw (or qx, \
-                     qy, qz, qw), run"
+                     qy, qz, qw), gyro_z, run"
                 ));
             };
             if columns.insert(key, Column::parse(key, name)).is_some() {
@@ -144,11 +149,15 @@ impl FromStr for Columns {
             }
         }
         let has = |key: Key| columns.contains_key(&key);
-        let needed = [Key::Time, Key::Left, Key::Right, Key::X, Key::Y];
-        if let Some(key) = needed.into_iter().find(|key| !has(*key)) {
+        let missing = |keys: &[Key]| keys.iter().copied().find(|key| !has(*key));
+        let of_pose = [Key::X, Key::Y, Key::Yaw, Key::Qx, Key::Qy, Key::Qz, Key::Qw];
+        let has_poses = !has(Key::Gyro) || of_pose.into_iter().any(has);
+        let needed: &[Key] = if has_poses { &[Key::X, Key::Y] } else { &[] };
+        let needed = [&[Key::Time, Key::Left, Key::Right], needed].concat();
+        if let Some(key) = missing(&needed) {
             return Err(format!("{0} is missing: expected {0}=COLUMN", key.name()));
         }
-        if has(Key::Yaw) == (has(Key::Qz) && has(Key::Qw)) {
+        if has_poses && has(Key::Yaw) == missing(&[Key::Qz, Key::Qw]).is_none() {
             return Err("expected yaw=COLUMN, or qz=COLUMN and qw=COLUMN of a quaternion".into());
         }
         Ok(Self { text: text.to_owned(), columns })
@@ -224,6 +233,8 @@ mod tests {
             ("t=a,v_l=b,v_r=c,x=d,y=e", "expected yaw=COLUMN, or qz=COLUMN"),
             ("t=a,v_l=b,x=d,y=e,yaw=f", "v_r is missing"),
             ("t=a,v_l=b,v_left=c,v_r=d,x=d,y=e,yaw=f", "v_l stands there twice"),
+            ("t=a,v_l=b,v_r=c", "x is missing"),
+            ("t=a,v_l=b,v_r=c,x=d,gyro_z=e", "y is missing"),
             ("time=a", "expected KEY=COLUMN"),
             ("t=", "expected KEY=COLUMN"),
         ] {

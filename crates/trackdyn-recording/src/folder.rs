@@ -5,12 +5,11 @@
 //! all of them into runs. Further columns are kept. Where a CSV file is not there, a Parquet file
 //! of the same columns may be (`tracks.parquet`; needs the feature `parquet`).
 
-use crate::recording::{Recording, Source, UncheckedRun, Warning, headings};
-use crate::sample::{PoseSample, Sample, Series, TrackSample};
+use crate::recording::{Recording, Source, UncheckedRun, Warning, turn_by_gyroscope};
+use crate::sample::{Sample, Series, TrackSample};
 use crate::{Error, Format, TableOptions};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use trackdyn_core::Pose;
 
 mod manifest;
 #[cfg(feature = "parquet")]
@@ -72,19 +71,6 @@ pub fn read_by(folder: &Path, options: &TableOptions) -> Result<Recording, Error
     let Manifest { name, robot, noise, pose_frame } = manifest;
     Recording::accepting(name, robot, runs, source, warnings, &options.accepted)
         .map(|recording| recording.with_stated_noise(noise).with_pose_frame(pose_frame))
-}
-
-/// Gives a run the yaw of its gyroscope for poses.
-fn turn_by_gyroscope(run: &mut UncheckedRun) {
-    let rates = run.imu.samples.iter().map(|reading| [reading.t, reading.gyro_z]);
-    let mut rates: Vec<[f64; 2]> =
-        rates.filter(|[t, rate]| t.is_finite() && rate.is_finite()).collect();
-    rates.sort_by(|[a, _], [b, _]| a.total_cmp(b));
-    let poses = rates.iter().zip(headings(&rates)).map(|([t, _], yaw)| {
-        let pose = Pose::new(f64::NAN, f64::NAN, yaw);
-        PoseSample { t: *t, pose }
-    });
-    run.poses.samples = poses.collect();
 }
 
 /// The CSV file of a table, or the Parquet file where only that is there.

@@ -31,7 +31,7 @@ mod wide_spikes;
 pub(crate) use cleaning::clean;
 pub use cleaning::{MIN_GAP_RATIO, longest_interval};
 pub use finding::{Cleaning, Finding};
-pub(crate) use headings::headings;
+pub(crate) use headings::{headings, turn_by_gyroscope};
 pub use kept::Kept;
 pub(crate) use run::turn_sensor;
 pub use run::{Run, UncheckedRun};

@@ -12,6 +12,9 @@ pub trait Sample: Copy + Debug + PartialEq {
     const STREAM: Stream;
     /// Names of its columns; the first is the time.
     const COLUMNS: &'static [&'static str];
+    /// How many of the columns, from the first on, a sample is nothing without. Others may be NaN:
+    /// not measured.
+    const NEEDED: usize = Self::COLUMNS.len();
 
     /// The sample from its columns, in their order.
     fn from_columns(values: &[f64]) -> Self;
@@ -79,9 +82,9 @@ pub struct ImuSample {
     pub t: f64,
     /// Yaw rate, counter-clockwise positive, rad/s.
     pub gyro_z: f64,
-    /// Specific force forward, m/s².
+    /// Specific force forward, m/s²; NaN where it was not measured.
     pub acc_x: f64,
-    /// Specific force to the left, m/s².
+    /// Specific force to the left, m/s²; NaN where it was not measured.
     pub acc_y: f64,
 }
 
@@ -122,6 +125,7 @@ impl Sample for PoseSample {
 impl Sample for ImuSample {
     const STREAM: Stream = Stream::Imu;
     const COLUMNS: &'static [&'static str] = &["t", "gyro_z", "acc_x", "acc_y"];
+    const NEEDED: usize = 2;
 
     fn from_columns(values: &[f64]) -> Self {
         Self { t: values[0], gyro_z: values[1], acc_x: values[2], acc_y: values[3] }

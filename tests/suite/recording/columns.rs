@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 use trackdyn_estimate::synthetic::{Synthetic, random_steps};
-use trackdyn_recording::{Columns, Doubt, Error, Recording, TableOptions, columns};
+use trackdyn_recording::{Columns, Doubt, Error, Recording, TableOptions, columns, folder};
 
 const RADIUS: f64 = 0.15;
 
@@ -110,6 +110,42 @@ fn quaternions_stand_for_yaw() {
     });
     let text = "t=t,v_l=l,v_r=r,x=x,y=y,qz=qz,qw=qw";
     assert_is_truth(&read(&path, text, &TableOptions::default()).expect("readable"));
+}
+
+/// Beside poses it is read with them, and is kept by a folder; without them it tells the yaw.
+#[test]
+fn a_gyroscope_may_stand_beside_poses_or_in_their_place() {
+    let truth = truth();
+    let poses = truth.runs()[0].poses();
+    let yaw_rate = |t: f64| {
+        let next = poses.partition_point(|pose| pose.t <= t + 1e-9).min(poses.len() - 1);
+        let (from, to) = (&poses[next - 1], &poses[next]);
+        (to.pose.yaw - from.pose.yaw) / (to.t - from.t)
+    };
+    let (place, path) = table("t,l,r,x,y,yaw,gyro", |[t, l, r, x, y, yaw], is_new| {
+        let pose = if is_new { format!("{x},{y},{yaw}") } else { ",,".to_owned() };
+        format!("{t},{l},{r},{pose},{}", -yaw_rate(t).to_degrees())
+    });
+    let text = "t=t,v_l=l,v_r=r,x=x,y=y,yaw=yaw,gyro_z=-gyro:deg/s";
+    let found = read(&path, text, &TableOptions::default()).expect("readable");
+    assert_is_truth(&found);
+    let copy = place.path().join("copy");
+    folder::write(&found, &copy).expect("written");
+    for found in [found, folder::read(&copy).expect("a recording")] {
+        let imu = found.runs()[0].imu();
+        assert_eq!(imu.len(), truth.runs()[0].tracks().len());
+        assert!(imu.iter().all(|one| (one.gyro_z - yaw_rate(one.t)).abs() < 1e-9));
+        assert!(imu.iter().all(|one| one.acc_x.is_nan() && one.acc_y.is_nan()));
+    }
+    let text = "t=t,v_l=l,v_r=r,gyro_z=-gyro";
+    let degrees = TableOptions { gyro_in_degrees: true, ..TableOptions::default() };
+    let found = read(&path, text, &degrees).expect("readable");
+    let run = &found.runs()[0];
+    let turned = run.poses().last().expect("some").pose.yaw;
+    let expected = poses.last().expect("some").pose.yaw - poses[0].pose.yaw;
+    assert!(!run.has_positions() && (turned - expected).abs() < 0.05, "{turned} {expected}");
+    let told = found.warnings().iter().map(ToString::to_string).collect::<String>();
+    assert!(told.contains("the yaw of the gyroscope in gyro, without positions"), "{told}");
 }
 
 #[test]

@@ -2,9 +2,10 @@
 
 use super::time::Times;
 use super::{Columns, Key, Unit, units};
-use crate::recording::{Recording, Source, UncheckedRun, Warning, turn_sensor};
+use crate::recording::{Recording, Source, UncheckedRun, Warning};
+use crate::recording::{turn_by_gyroscope, turn_sensor};
 use crate::rosbag::yaw_of_quaternion;
-use crate::sample::{PoseSample, TrackSample};
+use crate::sample::{ImuSample, PoseSample, TrackSample};
 use crate::table::Table;
 use crate::table_options::scale_of_table;
 use crate::{Error, Format, TableOptions};
@@ -45,9 +46,15 @@ pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Re
         let message = "no rows below the header".to_owned();
         return Err(Error::Empty { path: path.to_owned(), message });
     }
-    let mut runs = rows(table, columns, scales)?;
+    let mut runs = rows(table, columns, scales, options.gyro_in_degrees)?;
     turn_sensor(&mut runs, options.mount_yaw);
     let mut warnings = Vec::new();
+    let gyroscope = columns.columns.get(&Key::Gyro);
+    if let Some(gyroscope) = gyroscope.filter(|_| !columns.columns.contains_key(&Key::X)) {
+        runs.iter_mut().for_each(turn_by_gyroscope);
+        let taken = format!("the yaw of the gyroscope in {}, without positions", gyroscope.name);
+        warnings.push(Warning::Chosen { what: "poses", taken });
+    }
     for run in &mut runs {
         warnings.extend(thin_out(&mut run.poses.samples));
     }
@@ -58,7 +65,12 @@ pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Re
 }
 
 /// The rows of all runs, from the current one on.
-fn rows(mut table: Table, columns: &Columns, scales: [f64; 2]) -> Result<Vec<UncheckedRun>, Error> {
+fn rows(
+    mut table: Table,
+    columns: &Columns,
+    scales: [f64; 2],
+    gyro_in_degrees: bool,
+) -> Result<Vec<UncheckedRun>, Error> {
     let at = |key: Key| {
         let column = columns.columns.get(&key)?;
         Some((table.column(&column.name)?, column))
@@ -71,6 +83,11 @@ fn rows(mut table: Table, columns: &Columns, scales: [f64; 2]) -> Result<Vec<Unc
     let factors = [t, x, y].map(|of| of.map_or(1.0, |(_, column)| column.factor()));
     let yaw = yaw.map(|(place, column)| (place, column.unit, column.factor()));
     let quaternion = quaternion.map(|of| of.map(|(place, column)| (place, column.sign)));
+    let gyroscope = at(Key::Gyro).map(|(place, column)| {
+        let is_open = column.unit == Unit::Open;
+        let unit = if is_open && gyro_in_degrees { TAU / 360.0 } else { 1.0 };
+        (place, unit * column.factor())
+    });
     let mut runs: BTreeMap<i64, UncheckedRun> = BTreeMap::new();
     let mut times = Times::default();
     let mut has_row = true;
@@ -105,6 +122,13 @@ fn rows(mut table: Table, columns: &Columns, scales: [f64; 2]) -> Result<Vec<Unc
         };
         if !(x.is_nan() && y.is_nan() && yaw.is_nan()) {
             of_run.poses.samples.push(PoseSample { t: stamp, pose: Pose::new(x, y, yaw) });
+        }
+        if let Some((place, factor)) = gyroscope {
+            let gyro_z = factor * table.number(place)?;
+            if !gyro_z.is_nan() {
+                let [acc_x, acc_y] = [f64::NAN; 2];
+                of_run.imu.samples.push(ImuSample { t: stamp, gyro_z, acc_x, acc_y });
+            }
         }
         has_row = table.advance()?;
     }

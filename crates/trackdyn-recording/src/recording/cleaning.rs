@@ -21,8 +21,8 @@ pub fn longest_interval(usual: f64) -> f64 {
 /// Smallest interval, in medians, of two separate measurements.
 const MIN_INTERVAL_RATIO: f64 = 0.1;
 
-/// Drops rows that are not finite or far from all others in time, sorts the rest by time, and keeps
-/// the first row of each stamp.
+/// Drops rows that lack a needed number or are far from all others in time, sorts the rest by time,
+/// and keeps the first row of each stamp.
 pub(crate) fn clean<S: Sample>(series: &mut Series<S>, run: i64, cleanings: &mut Vec<Cleaning>) {
     let mut report = |finding, count, t| {
         if count > 0 {
@@ -37,7 +37,7 @@ pub(crate) fn clean<S: Sample>(series: &mut Series<S>, run: i64, cleanings: &mut
     for (index, sample) in samples.iter().enumerate() {
         row.clear();
         sample.push_columns(&mut row);
-        if row.iter().all(|value| value.is_finite()) {
+        if row[..S::NEEDED].iter().all(|value| value.is_finite()) {
             kept.push(index);
         } else {
             if not_finite == 0 {

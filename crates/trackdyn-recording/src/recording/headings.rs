@@ -1,5 +1,22 @@
 //! Yaw from a gyroscope, where nothing else has poses.
 
+use super::UncheckedRun;
+use crate::sample::PoseSample;
+use trackdyn_core::Pose;
+
+/// Gives a run the yaw of its gyroscope for poses.
+pub(crate) fn turn_by_gyroscope(run: &mut UncheckedRun) {
+    let rates = run.imu.samples.iter().map(|reading| [reading.t, reading.gyro_z]);
+    let mut rates: Vec<[f64; 2]> =
+        rates.filter(|[t, rate]| t.is_finite() && rate.is_finite()).collect();
+    rates.sort_by(|[a, _], [b, _]| a.total_cmp(b));
+    let poses = rates.iter().zip(headings(&rates)).map(|([t, _], yaw)| {
+        let pose = Pose::new(f64::NAN, f64::NAN, yaw);
+        PoseSample { t: *t, pose }
+    });
+    run.poses.samples = poses.collect();
+}
+
 /// The yaw, from 0 on, at each of these yaw rates, in rad: pairs (s, rad/s) in the order of time.
 ///
 /// Δψ = ∫ ω dt by the trapezoidal rule

@@ -116,7 +116,7 @@ def test_dask_loses_a_worker_and_no_row(in_fleet, expected):
 
 def test_an_executor_has_few_jobs_at_a_time(monkeypatch):
     monkeypatch.setattr(_submit, "IN_FLIGHT", 3)
-    monkeypatch.setattr(_submit, "make", lambda job: time.sleep(0.001) or job)
+    work = lambda job: time.sleep(0.001) or job  # noqa: E731
     given = []
 
     def jobs():
@@ -125,7 +125,7 @@ def test_an_executor_has_few_jobs_at_a_time(monkeypatch):
             yield {"number": number}
 
     with ThreadPoolExecutor(2) as pool:
-        for done, (job, future) in enumerate(_submit.results(pool, jobs())):
+        for done, (job, future) in enumerate(_submit.results(pool, jobs(), work)):
             assert future.result() == job
             assert len(given) - done <= 3 + 1
     assert len(given) == done + 1 == 30

@@ -12,5 +12,16 @@ from ._judged import Finding
 from ._outcome import Outcome
 from ._run import run
 from ._trends import ClaimTrend, RobotTrend, Trends, trends
+from ._trial import TrialOutcome, run_trial
 
-__all__ = ["ClaimTrend", "Finding", "Outcome", "RobotTrend", "Trends", "run", "trends"]
+__all__ = [
+    "ClaimTrend",
+    "Finding",
+    "Outcome",
+    "RobotTrend",
+    "Trends",
+    "TrialOutcome",
+    "run",
+    "run_trial",
+    "trends",
+]

@@ -4,26 +4,19 @@ from __future__ import annotations
 
 import argparse
 import sys
-import time
-from typing import Any, NoReturn
+from typing import Any
 
 from .._errors import Error, SettingError
-from . import _executors
-from ._reading_options import add_options, option_of, reading_of
+from ._program import Parser, executor_of, progress_of, say, worded
+from ._reading_options import add_options, reading_of
 from ._run import run
 
-#: Time between two lines of progress where there is no bar, s.
-_LINE_S = 10.0
+_PROGRAM = "trackdyn.fleet"
 
 _ABOUT = """Identify and diagnose every log of a fleet: one row a log, errors too.
 
 The table is continued where it is there: rows are made again only where their log, the vehicle, the
 options or the version of trackdyn changed. Ctrl-C keeps the rows that are done."""
-
-
-class _Parser(argparse.ArgumentParser):
-    def error(self, message: str) -> NoReturn:
-        self.exit(1, f"{self.prog}: {message}\n")
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -38,27 +31,27 @@ def main(arguments: list[str] | None = None) -> int:
             time=given.time,
             diagnose=_diagnose(given),
             identify={"gyroscope": True} if given.gyroscope else None,
-            executor=_executor(given),
+            executor=executor_of(_PROGRAM, given.scheduler, given.workers),
             workers=given.workers,
             timeout=given.timeout,
             memory=None if given.memory is None else given.memory * 1e9,
             retry=given.retry,
-            progress=_progress(),
+            progress=progress_of(_PROGRAM, "logs"),
             **reading_of(given),
         )
     except KeyboardInterrupt:
-        _say(f"interrupted: {given.out} has the rows that were done; run again to go on")
+        say(_PROGRAM, f"interrupted: {given.out} has the rows that were done; run again to go on")
         return 130
     except Error as error:
-        _say(_worded(error))
+        say(_PROGRAM, worded(error, {"logs"}))
         return 1
     print(f"{outcome.path}: {outcome}")
     return 0
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(
-        prog="trackdyn.fleet",
+    parser = Parser(
+        prog=_PROGRAM,
         allow_abbrev=False,
         description=_ABOUT,
         formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -114,53 +107,6 @@ def _diagnose(given: argparse.Namespace) -> Any:
     if given.gyroscope:
         keywords["gyroscope"] = True
     return keywords or True
-
-
-def _executor(given: argparse.Namespace) -> Any:
-    """Workers of Dask, or None: threads, where Dask is not installed."""
-    if given.scheduler is not None and given.workers is not None:
-        raise SettingError("workers: a scheduler has its own: expected one of both", "workers")
-    if _executors.has_dask():
-        return _executors.dask(given.scheduler, given.workers)
-    if given.scheduler is not None:
-        how = "Dask is not installed: pip install trackdyn[fleet]"
-        raise SettingError(f"scheduler {given.scheduler}: {how}", "scheduler")
-    _say("Dask is not installed, so threads start the work: pip install trackdyn[fleet]")
-    return None
-
-
-def _progress() -> Any:
-    """A bar, or a line now and then where tqdm is not installed or nobody looks."""
-    try:
-        import tqdm  # noqa: F401
-    except ImportError:
-        pass
-    else:
-        if sys.stderr.isatty():
-            return True
-    last = time.monotonic()
-
-    def tell(stage: str, done: int, total: int) -> None:
-        nonlocal last
-        if done == total or time.monotonic() - last > _LINE_S:
-            last = time.monotonic()
-            _say(f"{done} of {total} logs, {stage}")
-
-    return tell
-
-
-def _worded(error: Error) -> str:
-    """A message that begins with a setting names the option for it."""
-    text, setting = str(error), error.setting
-    # the logs have no option
-    if setting is None or setting == "logs" or not text.startswith(setting):
-        return text
-    option = "--time-format" if setting == "time" else option_of(setting)
-    return option + text[len(setting) :]
-
-
-def _say(text: str) -> None:
-    print(f"trackdyn.fleet: {text}", file=sys.stderr, flush=True)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,8 @@ import logging
 import os
 from collections.abc import Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from typing import Any
 
 from .._errors import SettingError
 from . import _guard, _preload
@@ -37,6 +38,17 @@ def threads(workers: int | None) -> Iterator[Executor]:
         raise
     finally:
         executor.shutdown()
+
+
+def entered(
+    executor: Executor | AbstractContextManager[Executor] | None, workers: int | None
+) -> AbstractContextManager[Executor]:
+    """The executor that is given, or threads."""
+    if executor is None:
+        return threads(workers)
+    # one that is given is its owner's to shut down
+    given: Any = executor
+    return nullcontext(given) if hasattr(given, "submit") else given
 
 
 def has_dask() -> bool:

@@ -12,6 +12,7 @@ from .._errors import ResultError, SettingError
 from .._trackdyn import VERSION as __version__
 from .._vehicle import Vehicle
 from . import _table
+from ._guard import make
 from ._jobs import Options, job_of
 from ._journal import Journal
 from ._known import Known
@@ -72,7 +73,7 @@ class Fleet:
             job_of(self._logs[name], self._vehicles[self._logs[name].robot], self._options, unless)
             for name, unless in todo.items()
         )
-        with closing(results(executor, jobs)) as done:
+        with closing(results(executor, jobs, make)) as done:
             for job, future in done:
                 made = _result(job["log"], future)
                 if made["is_same"]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping
 from concurrent.futures import Executor
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
@@ -121,7 +121,7 @@ def run(
         todo = fleet.todo(known_rows(path, journal), retry)
         try:
             if todo:
-                with _entered(executor, workers) as who, told(progress, "fleet") as tell:
+                with _executors.entered(executor, workers) as who, told(progress, "fleet") as tell:
                     fleet.make(who, todo, journal, tell)
         finally:
             fleet.merge(journal)
@@ -129,16 +129,6 @@ def run(
     finally:
         journal.close(is_in_table)
     return outcome
-
-
-def _entered(
-    executor: Executor | AbstractContextManager[Executor] | None, workers: int | None
-) -> AbstractContextManager[Executor]:
-    if executor is None:
-        return _executors.threads(workers)
-    # one that is given is its owner's to shut down
-    given: Any = executor
-    return nullcontext(given) if hasattr(given, "submit") else given
 
 
 def _path(out: str | os.PathLike[str]) -> Path:

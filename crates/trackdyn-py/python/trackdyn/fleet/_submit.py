@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import queue
-from collections.abc import Generator, Iterable
+from collections.abc import Callable, Generator, Iterable
 from concurrent.futures import Executor, Future
 from typing import Any
-
-from ._guard import make
 
 #: Jobs that an executor has at a time: enough for any cluster, and no memory for a million logs.
 IN_FLIGHT = 1000
@@ -18,8 +16,12 @@ _LOOK_S = 1.0
 _Result = tuple[dict[str, Any], "Future[dict[str, Any]]"]
 
 
-def results(executor: Executor, jobs: Iterable[dict[str, Any]]) -> Generator[_Result, None, None]:
-    """Each job with its future when that is done, in the order of their ends.
+def results(
+    executor: Executor,
+    jobs: Iterable[dict[str, Any]],
+    work: Callable[[dict[str, Any]], dict[str, Any]],
+) -> Generator[_Result, None, None]:
+    """Each job with the future of its work when that is done, in the order of their ends.
 
     Jobs that have not begun are cancelled where the caller ends early.
     """
@@ -27,7 +29,7 @@ def results(executor: Executor, jobs: Iterable[dict[str, Any]]) -> Generator[_Re
     waiting: dict[Future[dict[str, Any]], dict[str, Any]] = {}
     try:
         for job in jobs:
-            future = executor.submit(make, job)
+            future = executor.submit(work, job)
             waiting[future] = job
             future.add_done_callback(done.put)
             while len(waiting) >= IN_FLIGHT or not done.empty():

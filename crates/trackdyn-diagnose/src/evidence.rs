@@ -95,7 +95,7 @@ impl Origin {
 #[derive(Clone)]
 pub struct Evidence {
     samples: Arc<[Sample]>,
-    tracks: Vec<Vec<TrackSample>>,
+    tracks: Arc<[Vec<TrackSample>]>,
     blocks: usize,
     /// Number of each run in the recording.
     runs: Vec<i64>,
@@ -126,7 +126,7 @@ impl Evidence {
     }
 
     /// Track readings of each run; empty for a run without samples.
-    pub fn tracks(&self) -> &[Vec<TrackSample>] {
+    pub fn tracks(&self) -> &Arc<[Vec<TrackSample>]> {
         &self.tracks
     }
 
@@ -201,16 +201,17 @@ impl Evidence {
 
     /// The evidence with track readings at regular times: corrects stamps that are late by chance.
     pub fn with_regular_stamps(&self) -> Self {
-        let mut tracks = self.tracks.clone();
+        let mut tracks = self.tracks.to_vec();
         for run in &mut tracks {
             regularise(run, |reading| &mut reading.t);
         }
-        Self { tracks, ..self.clone() }
+        Self { tracks: tracks.into(), ..self.clone() }
     }
 
     /// The evidence with lines between the updates of encoder speeds that are held.
     pub fn with_held_readings_joined(&self) -> Self {
-        Self { tracks: held::joined(&self.tracks, &self.settings.evidence), ..self.clone() }
+        let tracks = held::joined(&self.tracks, &self.settings.evidence);
+        Self { tracks: tracks.into(), ..self.clone() }
     }
 
     /// Quantisation step of the encoder speeds, m/s.
@@ -221,10 +222,8 @@ impl Evidence {
     /// The evidence with encoder speeds smoothed between ticks of the given quantisation steps,
     /// m/s.
     pub fn with_speeds_between_ticks(&self, steps: PerSide<f64>) -> Self {
-        Self {
-            tracks: ticks::smoothed(&self.tracks, steps, &self.settings.evidence),
-            ..self.clone()
-        }
+        let tracks = ticks::smoothed(&self.tracks, steps, &self.settings.evidence);
+        Self { tracks: tracks.into(), ..self.clone() }
     }
 
     /// The evidence of some runs: `runs` says of each whether it is kept.

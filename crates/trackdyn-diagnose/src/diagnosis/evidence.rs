@@ -75,6 +75,8 @@ pub(super) struct Cleaned {
     pub seen: Weighted,
     /// Evidence of the held-out runs.
     pub unseen: Option<Evidence>,
+    /// The base, fitted to the readings as they are now.
+    pub base: Base,
 }
 
 impl Cleaned {
@@ -86,20 +88,19 @@ impl Cleaned {
     pub fn of(
         seen: Weighted,
         unseen: Option<Evidence>,
-        base: &Base,
+        base: Base,
         watch: &Watch,
     ) -> Result<Self, Cancelled> {
         let steps = seen.steps();
-        let (as_read, base) = (Self { seen, unseen }, &base.fit);
-        let even = as_read.unless_worse(base, Evidence::with_regular_stamps, watch)?;
-        let joined = even.unless_worse(base, Evidence::with_held_readings_joined, watch)?;
-        joined.unless_worse(base, |evidence| evidence.with_speeds_between_ticks(steps), watch)
+        let as_read = Self { seen, unseen, base };
+        let even = as_read.unless_worse(Evidence::with_regular_stamps, watch)?;
+        let joined = even.unless_worse(Evidence::with_held_readings_joined, watch)?;
+        joined.unless_worse(|evidence| evidence.with_speeds_between_ticks(steps), watch)
     }
 
     /// Evidence with cleaned readings and its re-estimated noise, unless the base fits worse.
     fn unless_worse(
         self,
-        base: &Fit,
         cleaned: impl Fn(&Evidence) -> Evidence,
         watch: &Watch,
     ) -> Result<Self, Cancelled> {
@@ -108,14 +109,15 @@ impl Cleaned {
         if tried.tracks() == self.seen.tracks() {
             return Ok(self);
         }
-        let base = base.refitted(&self.seen);
-        let again = base.refitted(&tried);
+        let fit = self.base.fit.refitted(&self.seen);
+        let again = fit.refitted(&tried);
         let most = self.seen.settings().evidence.max_rise_by_cleaning;
-        if again.objective < base.objective + most {
+        if again.objective < fit.objective + most {
             let seen = with_remaining_noise(&tried, &again, watch)?;
-            Ok(Self { seen, unseen: self.unseen.as_ref().map(cleaned) })
+            let base = Base { fit: again, ..self.base };
+            Ok(Self { seen, unseen: self.unseen.as_ref().map(cleaned), base })
         } else {
-            Ok(self)
+            Ok(Self { base: Base { fit, ..self.base }, ..self })
         }
     }
 }

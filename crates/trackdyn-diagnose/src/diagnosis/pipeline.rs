@@ -80,8 +80,8 @@ pub fn examine(
         watch.try_stage(Stage::Noise, || InNoise::of(seen, file, watch))?;
 
     // Cleaned: late stamps and encoder ticks are removed from the readings.
-    let Cleaned { seen, unseen } =
-        watch.try_stage(Stage::Readings, || Cleaned::of(seen, unseen, &base, watch))?;
+    let Cleaned { seen, unseen, base } =
+        watch.try_stage(Stage::Readings, || Cleaned::of(seen, unseen, base, watch))?;
 
     // Begun: runs that were cut out of a slide begin in a motion of their own.
     let own = watch.try_stage(Stage::Beginnings, || begun(&seen, &base, watch))?;

@@ -65,7 +65,7 @@ impl Evidence {
         let list = scatter.map(|scatter| scatter.map_or("-".to_owned(), |s| format!("{s:.4}")));
         Ok(Self {
             samples: samples.into(),
-            tracks,
+            tracks: tracks.into(),
             blocks,
             runs: (0..).take(points.len()).collect(),
             tau: 0.0,

@@ -75,7 +75,7 @@ impl Evidence {
         let begin = recording.begin();
         let samples = samples(&recording, &observations, &blocks, begin);
         Ok(Self {
-            tracks: tracks(&recording, &samples, begin),
+            tracks: tracks(&recording, &samples, begin).into(),
             samples: samples.into(),
             blocks: blocks.count(),
             runs: recording.runs().iter().map(Run::id).collect(),

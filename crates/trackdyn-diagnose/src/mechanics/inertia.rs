@@ -113,7 +113,7 @@ impl InertiaNear {
     pub fn moved(&self, inert: &[ActiveEffect], case: &Case, within: Within) -> Option<Self> {
         let late = self.at.lag_change(case.drive);
         let is_near = are_same(&self.at.inert, inert) && self.at.is_close(case.vehicle);
-        if !is_near || !self.at.begins_as(case) || late > within.late {
+        if !is_near || !self.at.drives_as(case) || late > within.late {
             return None;
         }
         let settings = case.settings();

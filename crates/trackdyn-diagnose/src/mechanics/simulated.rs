@@ -101,6 +101,8 @@ pub struct Inertia {
     model: Model,
     /// From its encoder speeds to its belt speeds.
     drive: Drive,
+    /// Encoder readings of each run.
+    tracks: Arc<[Vec<TrackSample>]>,
     /// Departure of the twist from the stationary one with which each run begins; none where all
     /// begin in stationary motion.
     pub starts: Option<Arc<[Twist]>>,
@@ -148,6 +150,7 @@ impl Inertia {
             vehicle: case.vehicle.clone(),
             model: model.clone(),
             drive: *drive,
+            tracks: Arc::clone(evidence.tracks()),
             starts,
             paths,
             fine: Mutex::new(Some(Arc::new(steps))),
@@ -191,12 +194,12 @@ impl Inertia {
             && self.vehicle == **vehicle
             && self.model.effects() == model.effects()
             && self.drive == **drive
-            && self.begins_as(case)
+            && self.drives_as(case)
     }
 
-    /// Whether the runs begin in the motion of this case.
-    pub fn begins_as(&self, case: &Case) -> bool {
-        self.starts.as_ref() == case.starts
+    /// Whether the runs have the readings of this case, and begin in its motion.
+    pub fn drives_as(&self, case: &Case) -> bool {
+        are_equal(&self.tracks, case.evidence.tracks()) && self.starts.as_ref() == case.starts
     }
 
     /// Additional belt lag of this drive, s, mean of both sides: slow changes are delayed by the
@@ -232,6 +235,7 @@ impl Inertia {
         let settings = &self.settings;
         let mut changes = self.changes(&other.vehicle, other.model.effects()).into_iter();
         are_same(&self.inert, &other.inert)
+            && are_equal(&self.tracks, &other.tracks)
             && self.lag_change(&other.drive) <= settings.max_lag_change
             && changes.all(|(by, change)| {
                 change.abs() <= settings.reach * size(by, &self.vehicle, settings)
@@ -468,6 +472,11 @@ pub fn size(by: Unknown, vehicle: &Vehicle, settings: &settings::Mechanics) -> f
 /// Typical size of a parameter of an effect; one for ln friction.
 pub fn typical(by: Unknown) -> f64 {
     by.parameter().map_or(1.0, typical_size)
+}
+
+/// Whether these are the readings of the same runs.
+fn are_equal(a: &Arc<[Vec<TrackSample>]>, b: &Arc<[Vec<TrackSample>]>) -> bool {
+    Arc::ptr_eq(a, b) || a == b
 }
 
 /// Whether both hold the same effects, with any values.

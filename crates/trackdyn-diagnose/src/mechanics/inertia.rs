@@ -207,3 +207,51 @@ fn needs_slope(by: Unknown, effects: &[ActiveEffect]) -> bool {
     let is_one = |card: &Card| effects.iter().any(|effect| effect.card().id == card.id);
     by.card().is_none_or(|card| is_one(card) || card.moves_load())
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::evidence::Evidence;
+    use crate::evidence::planned::{PlannedRun, READINGS};
+    use crate::hypothesis::Hypothesis;
+    use crate::mechanics::{Instruments, Mechanics};
+    use crate::plan::assumed_noise;
+    use crate::settings::Settings;
+    use nalgebra::Vector3;
+    use trackdyn_core::{Pose, real};
+    use trackdyn_model::VehicleFile;
+    use trackdyn_recording::TrackSample;
+
+    /// Turns with speeds up to `most`, m/s.
+    fn turning(most: f64) -> Evidence {
+        let reading = |k: usize| {
+            let t = 0.03 * real(k);
+            TrackSample { t, v_left: most * (3.0 * t).sin(), v_right: most * (2.0 * t).cos() }
+        };
+        let tracks = (0..=20 * READINGS).map(reading).collect();
+        let run = PlannedRun { tracks, pose: Pose::default(), blocks: vec![0] };
+        let (noise, settings) = (assumed_noise(1e-3, 1e-3), Settings::default());
+        Evidence::planned(&[run], noise, 0.0, &settings, |evidence| {
+            vec![Vector3::zeros(); evidence.samples().len()]
+        })
+    }
+
+    /// A motion in time is that of its readings: cleaned ones have another.
+    #[test]
+    fn a_departure_is_not_reused_for_other_readings() {
+        let [before, cleaned] = [0.7, 0.5].map(turning);
+        let file = VehicleFile::auriga_alpha();
+        let robot = Hypothesis::filed(&file, &Settings::default().prior);
+        let robot = robot.with_effect("yaw-inertia".parse().expect("an effect"));
+        let predicted = |mechanics: Mechanics| {
+            let predicted = mechanics.predict(&Instruments::of(&robot), &cleaned);
+            assert!(mechanics.failure().is_none());
+            predicted
+        };
+        let known = Mechanics::new(&robot, &before);
+        let beside = predicted(Mechanics::beside(Some(&known), &robot, &cleaned));
+        let anew = predicted(Mechanics::new(&robot, &cleaned));
+        for (beside, anew) in beside.iter().zip(&anew) {
+            assert!((beside - anew).norm() < 1e-6, "{beside} {anew}");
+        }
+    }
+}

@@ -15,6 +15,14 @@ def run(out, **keywords):
     return td.fleet.run("logs/*/*", "auriga-alpha", out, diagnose=False, **keywords)
 
 
+def status_of(main, words):
+    """The exit status of a program, also where its parser ends it."""
+    try:
+        return main(words)
+    except SystemExit as ended:
+        return ended.code
+
+
 class Inline(Executor):
     """Does at once what it is given."""
 

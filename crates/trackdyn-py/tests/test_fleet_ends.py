@@ -116,8 +116,11 @@ def test_dask_loses_a_worker_and_no_row(in_fleet, expected):
 
 def test_an_executor_has_few_jobs_at_a_time(monkeypatch):
     monkeypatch.setattr(_submit, "IN_FLIGHT", 3)
-    work = lambda job: time.sleep(0.001) or job  # noqa: E731
     given = []
+
+    def work(job):
+        time.sleep(0.001)
+        return job
 
     def jobs():
         for number in range(30):

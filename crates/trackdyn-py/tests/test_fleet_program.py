@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from fleets import status_of
 
 from trackdyn._reading import reading
 from trackdyn.fleet import _executors
@@ -76,10 +77,7 @@ def test_bad_input_is_refused_before_any_work(in_fleet, capsys, words, message):
         words = ["logs/*/*", *usual, *words]
     else:
         words = [*words, *usual]
-    try:
-        status = main(words)
-    except SystemExit as ended:
-        status = ended.code
+    status = status_of(main, words)
     said = capsys.readouterr().err
     assert status == 1 and message in said and "Traceback" not in said, said
     assert not list(in_fleet.glob("bad.parquet*")) and not list(in_fleet.glob("*.journal"))

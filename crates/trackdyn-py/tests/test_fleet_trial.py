@@ -6,6 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+from fleets import Inline, status_of
 
 import trackdyn as td
 from trackdyn.fleet import _executors
@@ -91,6 +92,25 @@ def test_an_interrupt_ends_what_runs(trial):
     assert not list(trial.glob("case-*/some-hang/diagnosis.toml"))
 
 
+def test_an_executor_that_breaks_keeps_what_was_done(trial):
+    program = trial.parent / "canned"
+    with pytest.raises(td.Error, match="case-0003: the executor broke: OSError: no worker is left"):
+        td.fleet.run_trial(trial, program=program, executor=Inline(after=2))
+    outcome = td.fleet.run_trial(trial, program=program, executor=Inline())
+    assert (outcome.kept, outcome.diagnosed) == (2, CASES - 3)
+
+    # of Dask: several workers were lost with this case
+    class KilledWorker(Exception):
+        pass
+
+    def lost(result):
+        raise KilledWorker("Attempted to run task '_case' on 4 different workers")
+
+    outcome = td.fleet.run_trial(trial, program=program, executor=Inline(lost))
+    assert len(outcome.failed) == CASES and outcome.done == CASES
+    assert all("several workers were lost" in reason for reason in outcome.failed.values())
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -105,9 +125,6 @@ def test_an_interrupt_ends_what_runs(trial):
 def test_bad_input_is_refused(trial, monkeypatch, capsys, words, message):
     monkeypatch.setattr(_executors, "has_dask", lambda: False)
     words = [str(trial) if word == "TRIAL" else word for word in words]
-    try:
-        status = main(words)
-    except SystemExit as ended:
-        status = ended.code
+    status = status_of(main, words)
     said = capsys.readouterr().err
     assert status == 1 and message in said and "Traceback" not in said, said

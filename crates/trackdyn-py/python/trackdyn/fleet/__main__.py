@@ -6,8 +6,8 @@ import argparse
 import sys
 from typing import Any
 
-from .._errors import Error, SettingError
-from ._program import Parser, executor_of, progress_of, say, worded
+from .._errors import SettingError
+from ._program import Parser, add_workers, ended, executor_of, progress_of
 from ._reading_options import add_options, reading_of
 from ._run import run
 
@@ -22,7 +22,8 @@ options or the version of trackdyn changed. Ctrl-C keeps the rows that are done.
 def main(arguments: list[str] | None = None) -> int:
     """Run the program; its exit status: 0 done, 1 bad input, 130 interrupted."""
     given = _parser().parse_args(arguments)
-    try:
+
+    def work() -> None:
         outcome = run(
             given.logs,
             given.vehicle,
@@ -39,14 +40,9 @@ def main(arguments: list[str] | None = None) -> int:
             progress=progress_of(_PROGRAM, "logs"),
             **reading_of(given),
         )
-    except KeyboardInterrupt:
-        say(_PROGRAM, f"interrupted: {given.out} has the rows that were done; run again to go on")
-        return 130
-    except Error as error:
-        say(_PROGRAM, worded(error, {"logs"}))
-        return 1
-    print(f"{outcome.path}: {outcome}")
-    return 0
+        print(f"{outcome.path}: {outcome}")
+
+    return ended(_PROGRAM, f"{given.out} has the rows that were done", {"logs"}, work)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -81,8 +77,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--no-diagnose", action="store_true", help="ICRs alone, in a hundredth of the time")
     add("--settings", metavar="FILE", help="settings of the diagnosis")
     add("--gyroscope", action="store_true", help="correct the yaw of poses by the gyroscope")
-    add("--scheduler", metavar="ADDRESS", help="Dask cluster [default: one on this machine]")
-    add("--workers", type=int, metavar="N", help="workers on this machine [default: processors]")
+    add_workers(parser)
     add(
         "--timeout",
         type=float,

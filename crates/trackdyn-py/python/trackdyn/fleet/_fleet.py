@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from concurrent.futures import CancelledError, Executor, Future
+from concurrent.futures import Executor, Future
 from contextlib import closing
 from typing import Any
 
@@ -18,7 +18,7 @@ from ._journal import Journal
 from ._known import Known
 from ._logs import Log
 from ._outcome import Outcome
-from ._submit import results
+from ._submit import Lost, made, results
 
 
 class Fleet:
@@ -75,16 +75,16 @@ class Fleet:
         )
         with closing(results(executor, jobs, make)) as done:
             for job, future in done:
-                made = _result(job["log"], future)
-                if made["is_same"]:
+                done_now = _result(job["log"], future)
+                if done_now["is_same"]:
                     outcome.kept += 1
-                    journal.append(None, made["timing"])
+                    journal.append(None, done_now["timing"])
                 else:
-                    row = self._named(job["log"], made["row"])
+                    row = self._named(job["log"], done_now["row"])
                     if job["unless"] is not None:
                         outcome.again["of changed logs"] += 1
                     outcome.made[row["status"]] += 1
-                    journal.append(row, made["timing"])
+                    journal.append(row, done_now["timing"])
                 if tell is not None:
                     failed = sum(outcome.made.values()) - outcome.made["ok"]
                     tell(f"{failed} not ok", outcome.done, outcome.logs)
@@ -146,23 +146,9 @@ def _named_columns(table: Any, names: list[str]) -> Any:
 
 
 def _result(log: str, future: Future[dict[str, Any]]) -> dict[str, Any]:
-    """What a worker made of a log.
-
-    Raises
-    ------
-    ResultError
-        For an executor that broke.
-    """
+    """What a worker made of a log; a row that says so where the log cost several workers."""
     try:
-        return future.result()
-    except (CancelledError, Exception) as error:
-        # Dask: several workers ended while they had this log, so it is the log's fault
-        if type(error).__name__ == "KilledWorker":
-            text = f"several workers were lost: {str(error).splitlines()[0]}"
-            row = {"status": "crashed", "stage": "start", "error": text}
-            return {"row": row, "timing": {"log": log}, "is_same": False}
-        kind = type(error).__name__
-        raise ResultError(
-            f"{log}: the executor broke: {kind}: {error}: rows that were done are kept; run again "
-            "to go on"
-        ) from error
+        return made(log, future)
+    except Lost as lost:
+        row = {"status": "crashed", "stage": "start", "error": str(lost)}
+        return {"row": row, "timing": {"log": log}, "is_same": False}

@@ -24,6 +24,29 @@ class Parser(argparse.ArgumentParser):
         self.exit(1, f"{self.prog}: {message}\n")
 
 
+def add_workers(parser: argparse.ArgumentParser) -> None:
+    """Add the options of :func:`executor_of`."""
+    add = parser.add_argument
+    add("--scheduler", metavar="ADDRESS", help="Dask cluster [default: one on this machine]")
+    add("--workers", type=int, metavar="N", help="workers on this machine [default: processors]")
+
+
+def ended(program: str, kept: str, arguments: set[str], work: Callable[[], None]) -> int:
+    """Do the work of a program; its exit status: 0 done, 1 bad input, 130 interrupted.
+
+    `kept` says what stays after an interrupt; `arguments` are settings without an option.
+    """
+    try:
+        work()
+    except KeyboardInterrupt:
+        say(program, f"interrupted: {kept}; run again to go on")
+        return 130
+    except Error as error:
+        say(program, worded(error, arguments))
+        return 1
+    return 0
+
+
 def executor_of(program: str, scheduler: str | None, workers: int | None) -> Any:
     """Workers of Dask, or None: threads, where Dask is not installed.
 

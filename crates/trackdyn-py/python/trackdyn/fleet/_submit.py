@@ -4,14 +4,20 @@ from __future__ import annotations
 
 import queue
 from collections.abc import Callable, Generator, Iterable
-from concurrent.futures import Executor, Future
+from concurrent.futures import CancelledError, Executor, Future
 from typing import Any
+
+from .._errors import ResultError
 
 #: Jobs that an executor has at a time: enough for any cluster, and no memory for a million logs.
 IN_FLIGHT = 1000
 
 #: Time between two looks at Ctrl-C, which Windows does not hear while it waits, s.
 _LOOK_S = 1.0
+
+class Lost(Exception):
+    """Several workers were lost while they had a job: the fault is the job's."""
+
 
 _Result = tuple[dict[str, Any], "Future[dict[str, Any]]"]
 
@@ -49,3 +55,24 @@ def _next(done: queue.SimpleQueue[Future[dict[str, Any]]]) -> Future[dict[str, A
             return done.get(timeout=_LOOK_S)
         except queue.Empty:
             continue
+
+
+def made(of: str, future: Future[dict[str, Any]]) -> dict[str, Any]:
+    """What a worker made of a job, which is `of` something.
+
+    Raises
+    ------
+    Lost
+        Where several workers ended while they had this job.
+    ResultError
+        For an executor that broke.
+    """
+    try:
+        return future.result()
+    except (CancelledError, Exception) as error:
+        kind = type(error).__name__
+        if kind == "KilledWorker":  # of Dask
+            raise Lost(f"several workers were lost: {str(error).splitlines()[0]}") from None
+        raise ResultError(
+            f"{of}: the executor broke: {kind}: {error}: what was done is kept; run again to go on"
+        ) from error

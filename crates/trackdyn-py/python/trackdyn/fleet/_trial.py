@@ -23,7 +23,7 @@ from .. import _values
 from .._arguments import Progress, told
 from .._errors import ResultError, SettingError
 from ._executors import entered
-from ._submit import results
+from ._submit import Lost, made, results
 
 #: What the program says when it has ended.
 _SAID = re.compile(r": \d+ cases: (\d+) diagnosed now, (\d+) failed, (\d+) before")
@@ -118,14 +118,15 @@ def run_trial(
     SettingError
         For an argument that is not accepted.
     ResultError
-        Where a worker has no program, or it cannot run a case.
+        Where a worker has no program, it cannot run a case, or the executor broke.
     """
     if _values.whole("limit", limit) < 1:
         raise SettingError(f"limit {limit}: expected seconds above zero", "limit")
     if workers is not None and _values.whole("workers", workers) < 1:
         raise SettingError(f"workers {workers}: expected 1 or more", "workers")
     folder = Path(_values.path("trial", trial))
-    count = sum(1 for _ in _cases(folder))
+    cases = _cases(folder)
+    count = len(cases)
     if count == 0:
         expected = "no cases: expected the folder of a trial (trackdyn trial make)"
         raise SettingError(f"trial {folder}: {expected}", "trial")
@@ -137,11 +138,17 @@ def run_trial(
     if retry:
         words.append("--retry")
     outcome = TrialOutcome(folder, count)
-    jobs = ({"words": [*words, "--shard", f"{place}/{count}"]} for place in range(1, count + 1))
+    jobs = (
+        {"case": case, "words": [*words, "--shard", f"{place}/{count}"]}
+        for place, case in enumerate(cases, 1)
+    )
     with entered(executor, workers) as who, told(progress, "trial") as tell, _ended_early():
         with closing(results(who, jobs, _case)) as done:
-            for _, future in done:
-                _count(outcome, future.result())
+            for job, future in done:
+                try:
+                    _count(outcome, made(job["case"], future))
+                except Lost as lost:
+                    outcome.failed[job["case"]] = str(lost)
                 if tell is not None:
                     tell(f"{len(outcome.failed)} failed", outcome.done, outcome.cases)
     return outcome
@@ -158,8 +165,9 @@ def _ended_early() -> Iterator[None]:
         raise
 
 
-def _cases(folder: Path) -> Iterator[Path]:
-    return (path for path in folder.glob("case-*") if path.is_dir())
+def _cases(folder: Path) -> list[str]:
+    """Names of the cases, in the order in which the program numbers them."""
+    return sorted(path.parent.name for path in folder.glob("case-*/recording"))
 
 
 def _case(job: dict[str, Any]) -> dict[str, Any]:
@@ -182,11 +190,11 @@ def _case(job: dict[str, Any]) -> dict[str, Any]:
     return {"said": said, "told": told_of}
 
 
-def _count(outcome: TrialOutcome, made: dict[str, Any]) -> None:
-    said = _SAID.search(made["said"])
+def _count(outcome: TrialOutcome, ended: dict[str, Any]) -> None:
+    said = _SAID.search(ended["said"])
     if said is None:
-        raise ResultError(f"{outcome.trial}: {made['told'].strip()}")
+        raise ResultError(f"{outcome.trial}: {ended['told'].strip()}")
     diagnosed, _, before = (int(count) for count in said.groups())
     outcome.diagnosed += diagnosed
     outcome.kept += before
-    outcome.failed.update(_REASON.findall(made["told"]))
+    outcome.failed.update(_REASON.findall(ended["told"]))

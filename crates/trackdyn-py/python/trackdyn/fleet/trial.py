@@ -5,8 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from .._errors import Error
-from ._program import Parser, executor_of, progress_of, say, worded
+from ._program import Parser, add_workers, ended, executor_of, progress_of
 from ._trial import run_trial
 
 _PROGRAM = "trackdyn.fleet.trial"
@@ -19,7 +18,8 @@ Cases that are done are not run again. Ctrl-C keeps what is done. Then: `trackdy
 def main(arguments: list[str] | None = None) -> int:
     """Run the program; its exit status: 0 done, 1 bad input, 130 interrupted."""
     given = _parser().parse_args(arguments)
-    try:
+
+    def work() -> None:
         outcome = run_trial(
             given.trial,
             program=given.program,
@@ -30,16 +30,11 @@ def main(arguments: list[str] | None = None) -> int:
             workers=given.workers,
             progress=progress_of(_PROGRAM, "cases"),
         )
-    except KeyboardInterrupt:
-        say(_PROGRAM, f"interrupted: {given.trial} has what was done; run again to go on")
-        return 130
-    except Error as error:
-        say(_PROGRAM, worded(error, {"trial"}))
-        return 1
-    print(f"{outcome.trial}: {outcome}")
-    for case, reason in sorted(outcome.failed.items()):
-        print(f"{case}: {reason}")
-    return 0
+        print(f"{outcome.trial}: {outcome}")
+        for case, reason in sorted(outcome.failed.items()):
+            print(f"{case}: {reason}")
+
+    return ended(_PROGRAM, f"{given.trial} has what was done", {"trial"}, work)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -61,8 +56,7 @@ def _parser() -> argparse.ArgumentParser:
         help="time that a case may take [default: %(default)d]",
     )
     add("--retry", action="store_true", help="run cases again whose process failed")
-    add("--scheduler", metavar="ADDRESS", help="Dask cluster [default: one on this machine]")
-    add("--workers", type=int, metavar="N", help="workers on this machine [default: processors]")
+    add_workers(parser)
     return parser
 
 

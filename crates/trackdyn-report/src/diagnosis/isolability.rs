@@ -36,7 +36,7 @@ pub(super) fn figure(subject: &Subject) -> Figure {
     let height = TOP + side.max(500) + BELOW + sheet::FOOT;
     let explanation = "Resemblance of what two effects would change in this very evidence, with \
                        all that is fitted anyway taken out: 100 means twins, 0 means that nothing \
-                       is shared.";
+                       is shared. Bars: by how much an effect of typical size would stand out.";
     let title = "Which effects this evidence can tell apart";
     let mut figure = sheet::sheet("isolability", height, title, explanation, subject.caption);
     if order.is_empty() {
@@ -83,7 +83,7 @@ fn strengths(of: &Isolability, order: &[usize], left: i32) -> Panel {
     let stretched = |z: f64| (1.0 + z).ln();
     let x = Axis::new("standard deviations at a typical size", "", [0.0, stretched(most)]);
     let place = Area::new(left, TOP, width, rows(order.len()) * CELL);
-    let title = "would stand out by (σ, at a typical size)";
+    let title = "stands out by (σ)";
     let mut panel = Panel::new(title, place, x, Axis::rows(order.len()));
     panel.is_framed = false;
     let (mut boxes, mut colours) = (Vec::new(), Vec::new());

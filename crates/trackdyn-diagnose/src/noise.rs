@@ -30,7 +30,7 @@ use crate::weighted::Weighted;
 use flexible::Flexible;
 use nalgebra::Vector3;
 use trackdyn_core::{Pose, real};
-use trackdyn_estimate::likely_noise::mean_squares;
+use trackdyn_estimate::likely_noise::{mean_squares, taken};
 use trackdyn_estimate::weighting::SegmentNoise;
 
 /// The evidence with noise estimated from the residuals of a fit. Tables of steady points keep
@@ -64,7 +64,9 @@ fn remaining(
     for _ in 0..settings.rounds {
         watch.go_on()?;
         let left = flexible.left(&evidence);
-        let taken = flexible.taken(&evidence, &noise, &left.columns);
+        let taken = taken(&noise, &evidence.motions(), &left.white, |column| {
+            evidence.whiten_transposed(column)
+        });
         let likely = search.most_likely(&evidence.motions(), &left.residual, noise, &taken);
         noise = likely.at_least(settings.min_deviations);
         evidence = evidence.with_noise(noise);
@@ -194,7 +196,7 @@ mod tests {
     use crate::settings::Settings;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
-    use trackdyn_estimate::likely_noise::{COUNT, Variances, variances_of};
+    use trackdyn_estimate::likely_noise::{Variances, variances_of};
     use trackdyn_recording::TrackSample;
 
     const TRUE: SegmentNoise = SegmentNoise {
@@ -327,15 +329,16 @@ mod tests {
         // No forward pose noise and no walk, as a measurement without a model may give.
         let measured =
             SegmentNoise { pose: [0.0, 4e-6, 4e-6], walk: [0.0; 3], heading: 0.0, stamp: 0.0 };
-        let mut logarithms = [[0.0; COUNT]; 2];
+        let mut logarithms = [[0.0; SegmentNoise::COUNT]; 2];
         for seed in 0..SEEDS {
             let residual = noisy(&evidence, seed.into());
             let flexible = Flexible { residual, columns: columns.clone(), own: COLUMNS };
             let left = flexible.left(&evidence);
             let scaled = flexible.left(&evidence.with_scale([2.0; 3]));
             assert_eq!(left.residual, scaled.residual, "noise is looked for whatever its scale");
-            let taken = flexible.taken(&evidence, &TRUE, &left.columns);
-            assert!((taken.sum() - real(COLUMNS)).abs() < 0.1 * real(COLUMNS), "{taken}");
+            let transposed = |column: &mut [Vector3<f64>]| evidence.whiten_transposed(column);
+            let taken = taken(&TRUE, &evidence.motions(), &left.white, transposed);
+            assert!((taken.sum() - real(COLUMNS)).abs() < 1e-6 * real(COLUMNS), "{taken}");
             let unaware = most_likely(&evidence, &left.residual, TRUE, &Variances::zeros());
             let aware = remaining(&evidence, measured, &flexible, &Watch::none());
             let aware = *aware.expect("not cancelled").noise().expect("one");

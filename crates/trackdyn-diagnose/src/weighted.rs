@@ -89,14 +89,16 @@ impl Segments {
 
     /// Whitens a column by the noise alone, in place: lost samples tell nothing.
     fn by_noise(&self, whitener: &Whitener, column: &mut [Vector3<f64>]) {
-        let lose = |column: &mut [Vector3<f64>]| {
-            for (value, _) in column.iter_mut().zip(&*self.lost).filter(|(_, lost)| **lost) {
-                *value = Vector3::zeros();
-            }
-        };
-        lose(column);
+        self.lose(column);
         whitener.whiten(column);
-        lose(column);
+        self.lose(column);
+    }
+
+    /// Clears a column where samples are lost, in place.
+    fn lose(&self, column: &mut [Vector3<f64>]) {
+        for (value, _) in column.iter_mut().zip(&*self.lost).filter(|(_, lost)| **lost) {
+            *value = Vector3::zeros();
+        }
     }
 }
 
@@ -220,6 +222,25 @@ impl Weighted {
                 if let Some(starts) = starts {
                     starts.whiten(column);
                 }
+            }
+            Whitening::Points(inverse) => {
+                for (value, inverse) in column.iter_mut().zip(inverse.iter()) {
+                    value.component_mul_assign(inverse);
+                }
+            }
+        }
+    }
+
+    /// Multiplies a column by the transpose of [`Weighted::whiten`], in place.
+    pub fn whiten_transposed(&self, column: &mut [Vector3<f64>]) {
+        match &self.whitening {
+            Whitening::Segments(segments, whitener, starts) => {
+                // what starts do is symmetric
+                if let Some(starts) = starts {
+                    starts.whiten(column);
+                }
+                whitener.whiten_transposed(column);
+                segments.lose(column);
             }
             Whitening::Points(inverse) => {
                 for (value, inverse) in column.iter_mut().zip(inverse.iter()) {

@@ -22,15 +22,11 @@ use rayon::prelude::*;
 use trackdyn_core::real;
 use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, MEDIAN_OF_CHI_SQUARE_3, median};
 
-/// Number of variances: three of the pose, three of its walk, one of the heading, one of the
-/// stamps.
-pub const COUNT: usize = 8;
-
 /// Place of the variance of the stamps.
 const STAMP: usize = 7;
 
 /// Logarithms of the variances.
-pub type Variances = SVector<f64, COUNT>;
+pub type Variances = SVector<f64, { SegmentNoise::COUNT }>;
 
 /// How the noise is looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,8 +43,6 @@ pub struct Search {
     pub start_stamp: f64,
     /// Gain of the log-likelihood from which stamps have errors.
     pub min_stamp_gain: f64,
-    /// Difference of a logarithm for what a fit took of the noise.
-    pub taken_difference: f64,
     /// Smallest walk variance per second, as share of the white one, 1/s.
     pub min_walk: f64,
 }
@@ -62,7 +56,6 @@ impl Default for Search {
             start_heading: 0.5,
             start_stamp: 0.3,
             min_stamp_gain: MIN_GAIN,
-            taken_difference: 0.05,
             min_walk: 1e-5,
         }
     }
@@ -92,28 +85,6 @@ impl Search {
         let walk = std::array::from_fn(|k| variances[3 + k].exp().max(self.min_walk * pose[k]));
         let stamp = if variances[STAMP] > NONE { variances[STAMP].exp() } else { 0.0 };
         SegmentNoise { pose, walk, heading: variances[6].exp(), stamp }
-    }
-
-    /// Degrees of freedom that a fit of columns X takes from each variance v of a noise, −d ln
-    /// det(Xᵀ V⁻¹ X)/d ln v, from that ln det by the noise; zero where there is none.
-    pub fn taken(
-        &self,
-        noise: &SegmentNoise,
-        ln_det: impl Fn(SegmentNoise) -> Option<f64> + Sync,
-    ) -> Variances {
-        let here = variances_of(noise);
-        let stepped = (0..=COUNT).into_par_iter().map(|k| {
-            let mut there = here;
-            if k < COUNT {
-                there[k] += self.taken_difference;
-            }
-            ln_det(self.noise_of(&there))
-        });
-        let stepped: Vec<Option<f64>> = stepped.collect();
-        Variances::from_fn(|k, _| match (stepped[COUNT], stepped[k]) {
-            (Some(here), Some(there)) => ((here - there) / self.taken_difference).max(0.0),
-            _ => 0.0,
-        })
     }
 
     /// Most likely noise of the residuals of these motions, starting from `measured`. `taken` are
@@ -159,10 +130,7 @@ impl Search {
 
 /// Logarithms of the variances of a noise.
 pub fn variances_of(noise: &SegmentNoise) -> Variances {
-    let SegmentNoise { pose, walk, heading, stamp } = noise;
-    let all = pose.iter().chain(walk).chain([heading, stamp]);
-    let logarithms = all.map(|variance| variance.max(f64::MIN_POSITIVE).ln());
-    Variances::from_iterator(logarithms)
+    Variances::from(noise.variances()).map(|variance| variance.max(f64::MIN_POSITIVE).ln())
 }
 
 /// Mean square of the twist at the last poses of motions: forward ((m/s)²), left ((m/s)²), yaw
@@ -173,19 +141,51 @@ pub fn mean_squares(motions: &[Seen]) -> [f64; 3] {
     [0, 1, 2].map(|axis| square(axis) / real(motions.len().max(1)))
 }
 
-/// ln det(Xᵀ V⁻¹ X) of a few columns; none where they are not independent.
-pub fn ln_det(motions: &[Seen], columns: &[Vec<Vector3<f64>>], noise: SegmentNoise) -> Option<f64> {
-    let whitener = Whitener::of_motions(&Weighting::Noise(noise), motions.iter().copied());
-    let white = |column: &Vec<Vector3<f64>>| {
-        let mut column = without_lost(column, motions);
-        whitener.whiten(&mut column);
-        column
+/// Degrees of freedom that a fit of columns X takes from each variance v of a noise; zero where the
+/// columns are not independent. `white` are the columns L⁻¹ X, and `transposed` multiplies a column
+/// by L⁻ᵀ in place: V = L Lᵀ is the covariance, zero columns of L⁻¹ those of lost motions.
+///
+/// # Law
+/// −∂ ln det(Xᵀ V⁻¹ X)/∂ ln v = v Σ uᵀ ∂V/∂v u, summed over u = L⁻ᵀ q, with q an orthonormal basis of
+/// the columns of L⁻¹ X.
+pub fn taken(
+    noise: &SegmentNoise,
+    motions: &[Seen],
+    white: &[Vec<Vector3<f64>>],
+    transposed: impl Fn(&mut [Vector3<f64>]) + Sync,
+) -> Variances {
+    let basis = orthonormal(white);
+    let squares = basis.into_par_iter().map(|mut column| {
+        transposed(&mut column);
+        Variances::from(SegmentNoise::squares(motions, &column))
+    });
+    let squares: Vec<Variances> = squares.collect();
+    let sum: Variances = squares.iter().sum();
+    sum.component_mul(&Variances::from(noise.variances()))
+}
+
+/// An orthonormal basis of some columns; none where they are not independent.
+fn orthonormal(columns: &[Vec<Vector3<f64>>]) -> Vec<Vec<Vector3<f64>>> {
+    let norm = |column: &[Vector3<f64>]| -> f64 {
+        column.iter().map(Vector3::norm_squared).sum::<f64>().sqrt()
     };
-    let white: Vec<_> = columns.iter().map(white).collect();
-    let product =
-        |a: usize, b: usize| -> f64 { white[a].iter().zip(&white[b]).map(|(a, b)| a.dot(b)).sum() };
-    let factor = DMatrix::from_fn(white.len(), white.len(), product).cholesky()?;
-    Some(2.0 * factor.l_dirty().diagonal().map(f64::ln).sum())
+    let rows = columns.first().map_or(0, Vec::len);
+    let mut all = DMatrix::zeros(3 * rows, columns.len());
+    for (mut place, column) in all.column_iter_mut().zip(columns) {
+        let inverse = norm(column).recip();
+        for (k, value) in column.iter().enumerate() {
+            place.fixed_rows_mut::<3>(3 * k).copy_from(&(value * inverse));
+        }
+    }
+    // Xᵀ X = R Rᵀ, Q = X R⁻ᵀ
+    let Some(factor) = (all.transpose() * &all).cholesky() else { return Vec::new() };
+    let Some(inverse) = factor.l().try_inverse() else { return Vec::new() };
+    let basis = all * inverse.transpose();
+    let column = |k: usize| -> Vec<Vector3<f64>> {
+        let column = basis.column(k);
+        (0..rows).map(|row| column.fixed_rows::<3>(3 * row).into_owned()).collect()
+    };
+    (0..columns.len()).map(column).collect()
 }
 
 /// A column with zeros where motions are lost.

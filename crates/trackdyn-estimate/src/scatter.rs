@@ -6,9 +6,9 @@
 //! likelihood.
 
 use crate::least_squares::{Estimate, residuals};
-use crate::likely_noise::{Search, ln_det};
+use crate::likely_noise::{Search, taken};
 use crate::observations::Observations;
-use crate::weighting::{Seen, SegmentNoise};
+use crate::weighting::{Seen, SegmentNoise, Weighting, Whitener};
 use nalgebra::Vector3;
 
 /// Most segments that are looked at, by which a variance is known to 5 %, and how many of them in a
@@ -41,7 +41,14 @@ pub(crate) fn scatter(
     let (left, search) = (of(&left), Search::default());
     let mut noise = search.regular(&measured);
     for _ in 0..ROUNDS {
-        let taken = search.taken(&noise, |noise| ln_det(&motions, &columns, noise));
+        let whitener = Whitener::of_motions(&Weighting::Noise(noise), motions.iter().copied());
+        let white = |column: &Vec<Vector3<f64>>| {
+            let mut column = column.clone();
+            whitener.whiten(&mut column);
+            column
+        };
+        let white: Vec<_> = columns.iter().map(white).collect();
+        let taken = taken(&noise, &motions, &white, |column| whitener.whiten_transposed(column));
         noise = search.most_likely(&motions, &left, noise, &taken);
     }
     noise

@@ -251,7 +251,67 @@ impl Whitener {
     }
 }
 
+impl Whitener {
+    /// Multiplies a column by L⁻ᵀ, the transpose of [`Whitener::whiten`], in place.
+    pub fn whiten_transposed(&self, column: &mut [Vector3<f64>]) {
+        let (mut after, mut heading) = (Vector3::zeros(), 0.0);
+        for (value, block) in column.iter_mut().zip(&self.blocks).rev() {
+            // z enters the residual after it, and the heading
+            let white = *value + after + block.tells.transpose() * heading;
+            *value = block.inverse.tr_mul(&white);
+            after = -block.gain.tr_mul(value);
+            heading = if block.begins { 0.0 } else { heading - block.turned.dot(value) };
+        }
+    }
+}
+
 impl SegmentNoise {
+    /// Number of variances: three of the pose, three of its walk, one of the heading, one of the
+    /// stamps.
+    pub const COUNT: usize = 8;
+
+    /// All variances, in the order of the fields.
+    pub fn variances(&self) -> [f64; Self::COUNT] {
+        let Self { pose: [x, y, turn], walk: [by_x, by_y, by_turn], heading, stamp } = *self;
+        [x, y, turn, by_x, by_y, by_turn, heading, stamp]
+    }
+
+    /// Squares of a column u by the variances, uᵀ ∂V/∂v u, in the order of the fields: each error
+    /// changes some residuals by a, and adds (aᵀ u)². V is the covariance of the segments that are
+    /// not lost; u is zero where they are.
+    pub fn squares(segments: &[Seen], u: &[Vector3<f64>]) -> [f64; Self::COUNT] {
+        let (mut pose, mut walk, mut heading, mut stamp) = ([0.0; 3], [0.0; 3], 0.0, 0.0);
+        let mut of_pose = |by: Vector3<f64>, twists: &Matrix3<f64>| {
+            for (sum, part) in pose.iter_mut().zip(by.iter()) {
+                *sum += part * part;
+            }
+            stamp += by.dot(&(twists * by));
+        };
+        // aᵀ u of the heading over all later segments of the run
+        let mut later = 0.0;
+        for (k, segment) in segments.iter().enumerate().rev() {
+            let next = segments.get(k + 1);
+            if next.is_some_and(|next| next.run != segment.run) {
+                later = 0.0;
+            }
+            let mut last = rotation(-segment.motion[2]) * u[k];
+            if let Some(next) = next.filter(|next| next.follows) {
+                last += Self::by_start(next).tr_mul(&u[k + 1]);
+            }
+            of_pose(last, &segment.twists[1]);
+            if !segment.follows {
+                of_pose(Self::by_start(segment).tr_mul(&u[k]), &segment.twists[0]);
+            }
+            for (sum, part) in walk.iter_mut().zip(u[k].iter()) {
+                *sum += segment.duration * part * part;
+            }
+            heading += segment.duration * (u[k][2] + later).powi(2);
+            let [forward, left, _] = segment.motion;
+            later += Vector3::new(left, -forward, 0.0).dot(&u[k]);
+        }
+        Self { pose, walk, heading, stamp }.variances()
+    }
+
     /// The whitening of a segment, given what is known from its run before it, and what is known
     /// after it.
     fn block(&self, segment: &Seen, before: Option<Known>) -> (Block, Known) {
@@ -360,7 +420,7 @@ mod tests {
     }
 
     /// The covariance of all residuals, from what each independent error does to each of them.
-    fn covariance(segments: &[Seen]) -> DMatrix<f64> {
+    fn covariance(segments: &[Seen], noise: &SegmentNoise) -> DMatrix<f64> {
         let rows = 3 * segments.len();
         let mut sum = DMatrix::zeros(rows, rows);
         let mut add = |variance: f64, of: &dyn Fn(usize) -> Vector3<f64>| {
@@ -373,15 +433,15 @@ mod tests {
         for (k, segment) in segments.iter().enumerate() {
             let start = SegmentNoise::by_start(segment);
             for axis in 0..3 {
-                add(NOISE.walk[axis] * segment.duration, &|at| {
+                add(noise.walk[axis] * segment.duration, &|at| {
                     if at == k { unit(axis) } else { Vector3::zeros() }
                 });
             }
             // errors of a pose: along each axis, and along the twist by its stamp
             let errors = |twists: Matrix3<f64>| {
-                let axes = (0..3).map(|axis| (NOISE.pose[axis], unit(axis)));
+                let axes = (0..3).map(|axis| (noise.pose[axis], unit(axis)));
                 let along = twists.column(0) / twists[(0, 0)].sqrt();
-                axes.chain([(NOISE.stamp, along)])
+                axes.chain([(noise.stamp, along)])
             };
             for (variance, error) in errors(segment.twists[1]) {
                 // the last pose, which may be the first of the next one
@@ -397,7 +457,7 @@ mod tests {
                 add(variance, &|at| if at == k { start * error } else { Vector3::zeros() });
             }
             // the heading, which stays wrong until the end of the run
-            add(NOISE.heading * segment.duration, &|at| {
+            add(noise.heading * segment.duration, &|at| {
                 let [forward, left, _] = segments[at].motion;
                 match at {
                     _ if at == k => unit(2),
@@ -415,7 +475,7 @@ mod tests {
     fn all_errors_of_poses_and_headings_come_out_white() {
         let segments = segments();
         let whitener = Whitener::of_motions(&Weighting::Noise(NOISE), segments.iter().copied());
-        let factor = covariance(&segments).cholesky().expect("positive definite").l();
+        let factor = covariance(&segments, &NOISE).cholesky().expect("positive definite").l();
         let mut white = factor.clone();
         for mut column in white.column_iter_mut() {
             let mut values: Vec<Vector3<f64>> =
@@ -436,9 +496,58 @@ mod tests {
         }
         let determinant: f64 = whitener.ln_determinants().filter(|ln| ln.is_finite()).sum();
         let known: Vec<usize> = (0..found.nrows()).filter(|a| !segments[a / 3].is_lost).collect();
-        let covariance = covariance(&segments).select_rows(&known).select_columns(&known);
+        let covariance = covariance(&segments, &NOISE).select_rows(&known).select_columns(&known);
         let expected =
             -covariance.cholesky().expect("positive definite").l().diagonal().map(f64::ln).sum();
         assert!((determinant - expected).abs() < 1e-8, "{determinant} {expected}");
+    }
+    /// A column that is zero where segments are lost.
+    fn column(segments: &[Seen], seed: f64) -> Vec<Vector3<f64>> {
+        let value = |(k, segment): (usize, &Seen)| {
+            let values = Vector3::from_fn(|axis, _| (seed * real(3 * k + axis + 1)).sin());
+            if segment.is_lost { Vector3::zeros() } else { values }
+        };
+        segments.iter().enumerate().map(value).collect()
+    }
+
+    fn product(a: &[Vector3<f64>], b: &[Vector3<f64>]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
+    }
+
+    #[test]
+    fn the_transpose_of_whitening_is_its_transpose() {
+        let segments = segments();
+        let whitener = Whitener::of_motions(&Weighting::Noise(NOISE), segments.iter().copied());
+        for (a, b) in [(1.3, 0.7), (2.1, 5.9), (0.2, 3.3)] {
+            let [a, b] = [a, b].map(|seed| column(&segments, seed));
+            let (mut white, mut transposed) = (a.clone(), b.clone());
+            whitener.whiten(&mut white);
+            whitener.whiten_transposed(&mut transposed);
+            let [there, back] = [product(&white, &b), product(&a, &transposed)];
+            assert!((there - back).abs() < 1e-9 * there.abs(), "{there} {back}");
+        }
+    }
+
+    /// Of each variance alone, against the covariance of all errors.
+    #[test]
+    fn squares_are_what_each_variance_adds_to_the_covariance() {
+        let segments = segments();
+        let u = column(&segments, 1.7);
+        let dense = nalgebra::DVector::from_iterator(3 * u.len(), u.iter().flatten().copied());
+        let none = SegmentNoise { pose: [0.0; 3], walk: [0.0; 3], heading: 0.0, stamp: 0.0 };
+        let alone = |k: usize| {
+            let mut one = none;
+            match k {
+                0..3 => one.pose[k] = 1.0,
+                3..6 => one.walk[k - 3] = 1.0,
+                6 => one.heading = 1.0,
+                _ => one.stamp = 1.0,
+            }
+            one
+        };
+        for (k, square) in SegmentNoise::squares(&segments, &u).into_iter().enumerate() {
+            let expected = dense.dot(&(covariance(&segments, &alone(k)) * &dense));
+            assert!((square - expected).abs() < 1e-9 * expected, "{k}: {square} {expected}");
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Columns of all that driving could explain in a residual, and the noise lost to fitting them.
+//! Columns of all that driving could explain in a residual.
 
 use crate::candidate::sizes;
 use crate::evidence::Evidence;
@@ -6,12 +6,9 @@ use crate::fit::{Fit, derivatives};
 use crate::hypothesis::{Hypothesis, Unknown, at_share};
 use crate::locate::{contrasts, icr_columns};
 use crate::mechanics::{Instruments, Mechanics};
-use crate::normal::{Columns, Normal};
 use crate::weighted::Weighted;
 use nalgebra::Vector3;
 use trackdyn_core::real;
-use trackdyn_estimate::likely_noise::Variances;
-use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_model::EffectId;
 use trackdyn_model::effect::Card;
 
@@ -83,10 +80,10 @@ fn white(evidence: &Weighted, column: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     column
 }
 
-/// Residual after the fit, not whitened, and the indices of the fitted columns.
+/// Residual after the fit, not whitened, and the fitted columns, whitened by the noise alone.
 pub(super) struct Left {
     pub(super) residual: Vec<Vector3<f64>>,
-    pub(super) columns: Vec<usize>,
+    pub(super) white: Vec<Vec<Vector3<f64>>>,
 }
 
 impl Flexible {
@@ -111,7 +108,8 @@ impl Flexible {
     /// short that all would leave less than half of the degrees of freedom.
     pub(super) fn left(&self, evidence: &Weighted) -> Left {
         let mut residual = white(evidence, &self.residual);
-        let columns: Vec<_> = self.columns.iter().map(|column| white(evidence, column)).collect();
+        let mut columns: Vec<_> =
+            self.columns.iter().map(|column| white(evidence, column)).collect();
         let normal = evidence.normal(&residual, &columns);
         let mut fitted = normal.independent();
         let most = evidence.settings().noise.max_fitted_share * real(3 * residual.len());
@@ -120,31 +118,7 @@ impl Flexible {
         }
         normal.take(&fitted, &columns, &mut residual);
         evidence.colour(&mut residual);
-        Left { residual, columns: fitted }
-    }
-
-    /// Degrees of freedom that the fitted columns take from each variance v: −d ln det(Xᵀ V⁻¹ X)/d
-    /// ln v.
-    pub(super) fn taken(
-        &self,
-        evidence: &Weighted,
-        noise: &SegmentNoise,
-        fitted: &[usize],
-    ) -> Variances {
-        let count = evidence.samples().len();
-        let ln_det = |noise: SegmentNoise| -> Option<f64> {
-            let evidence = evidence.with_noise(noise);
-            let white = fitted.iter().map(|&column| white(&evidence, &self.columns[column]));
-            let normal = Normal::new(&Columns {
-                residual: &vec![Vector3::zeros(); count],
-                columns: &white.collect::<Vec<_>>(),
-                weights: &vec![1.0; count],
-                blocks: &vec![0; count],
-                count: 1,
-            });
-            let all: Vec<usize> = (0..fitted.len()).collect();
-            Some(normal.least_squares(&all)?.1)
-        };
-        evidence.settings().noise.search().taken(noise, ln_det)
+        let white = fitted.iter().map(|&column| std::mem::take(&mut columns[column])).collect();
+        Left { residual, white }
     }
 }

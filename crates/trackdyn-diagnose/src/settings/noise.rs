@@ -77,9 +77,6 @@ group! {
         /// Difference step of a ln variance.
         difference: f64 = 1e-3, "", [1e-6, 0.5],
             "Between rounding and curvature.";
-        /// Difference step for what the fit took of the noise.
-        taken_difference: f64 = 0.05, "", [1e-6, 0.5],
-            "It is nearly linear.";
     }
 }
 
@@ -94,7 +91,6 @@ impl Noise {
             start_heading: self.start_heading,
             start_stamp: self.start_stamp,
             min_stamp_gain: self.min_stamp_gain,
-            taken_difference: self.taken_difference,
             min_walk: self.min_walk,
         }
     }

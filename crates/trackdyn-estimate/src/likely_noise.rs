@@ -146,8 +146,8 @@ pub fn mean_squares(motions: &[Seen]) -> [f64; 3] {
 /// by L⁻ᵀ in place: V = L Lᵀ is the covariance, zero columns of L⁻¹ those of lost motions.
 ///
 /// # Law
-/// −∂ ln det(Xᵀ V⁻¹ X)/∂ ln v = v Σ uᵀ ∂V/∂v u, summed over u = L⁻ᵀ q, with q an orthonormal basis of
-/// the columns of L⁻¹ X.
+/// −∂ ln det(Xᵀ V⁻¹ X)/∂ ln v = v Σ uᵀ ∂V/∂v u, summed over u = L⁻ᵀ q, with q an orthonormal basis
+/// of the columns of L⁻¹ X.
 pub fn taken(
     noise: &SegmentNoise,
     motions: &[Seen],

@@ -21,9 +21,13 @@
 //!
 //! Where that fails too, a share of one step that lowers the residual is taken: near sticking a law
 //! may be steep, and the whole step would lead far away.
+//!
+//! Where û is about the stationary motion, so is the motion with the laws, and D is that of the
+//! stationary one: most of a drive, in which few stages need an evaluation.
 
 use crate::settings;
 use nalgebra::{Matrix3, Vector3};
+use std::cell::LazyCell;
 use trackdyn_core::{Twist, real};
 use trackdyn_model::Forces;
 use trackdyn_model::newton::{self, Convergence, Tolerance};
@@ -61,6 +65,12 @@ pub fn changes(
     settings: &settings::Mechanics,
 ) -> Vec<[Twist; 2]> {
     let still = Twist::zero();
+    let gauge = with.model.vehicle().gauge;
+    let most = |twists: &[Twist]| {
+        settings.max_steady_departure
+            * twists.iter().map(|twist| size(*twist, gauge)).fold(0.0, f64::max)
+    };
+    let (departing, lasting) = (most(run.steady), most(shifts));
     let mut changes = Vec::with_capacity(run.steps.len());
     let mut ended = still;
     let mut known = None;
@@ -69,16 +79,25 @@ pub fn changes(
         let until = pair[1].t;
         let shift = shifts[reading];
         // What tables and quadrature leave unbalanced in the stationary motion counts as balance.
-        let rest =
-            with.sum(pair[0].speeds(), &(run.steady[reading] + shift), &still) - run.left[reading];
+        let rest = LazyCell::new(|| {
+            let twist = run.steady[reading] + shift;
+            with.sum(pair[0].speeds(), &twist, &still) - run.left[reading]
+        });
         while let Some(step) = steps.next_if(|step| step.end <= until) {
+            let departs =
+                |instant: &Instant| size(instant.twist - run.steady[reading], gauge) > departing;
+            if size(ended - shift, gauge) <= lasting && !step.stages.iter().any(departs) {
+                changes.push([shift; 2]);
+                ended = shift;
+                continue;
+            }
             let per_second = (GAMMA * step.duration).recip();
             let [first, second] = step.stages.map(|instant| Stage {
                 with,
                 without,
                 instant,
                 per_second,
-                rest,
+                rest: *rest,
                 settings,
             });
             let one = first.solve(shift, &mut known, ended);
@@ -88,6 +107,12 @@ pub fn changes(
         }
     }
     changes
+}
+
+/// Largest speed of a twist, m/s; that of turning is the speed of the belts.
+fn size(twist: Twist, gauge: f64) -> f64 {
+    let turning = twist.w * gauge / 2.0;
+    [twist.v_x, twist.v_y, turning].into_iter().map(f64::abs).fold(0.0, f64::max)
 }
 
 /// A stage whose change D by the laws is sought.

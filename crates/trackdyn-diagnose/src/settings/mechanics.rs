@@ -42,6 +42,9 @@ group! {
         /// Twist error from which such a step is shortened.
         sheared_step_tolerance: f64 = 5e-3, "m/s", [1e-9, 1.0],
             "Errors cancel.";
+        /// Departure from the stationary motion, in the largest speed, that counts as none there.
+        max_steady_departure: f64 = 0.01, "", [0.0, 0.1],
+            "Laws change slips of a percent by a percent.";
         /// Change, in typical sizes, over which a motion in time serves.
         reach: f64 = 0.2, "", [1e-3, 10.0],
             "What is not linear is half a percent.";

@@ -9,6 +9,7 @@ use crate::noise::with_remaining_noise;
 use crate::progress::{Cancelled, Watch};
 use crate::settings;
 use crate::weighted::Weighted;
+use std::sync::Arc;
 use trackdyn_model::VehicleFile;
 
 /// Evidence of the fitted and of the held-out runs.
@@ -81,7 +82,8 @@ pub(super) struct Cleaned {
 
 impl Cleaned {
     /// Removes late stamps, then held speeds, then encoder ticks: a fit would mistake each for a
-    /// drive lag. A cleaning is kept unless the fit becomes worse.
+    /// drive lag. A cleaning is kept unless the fit becomes worse. Noise is estimated anew at the
+    /// end, where one was kept.
     ///
     /// # Errors
     /// [`Cancelled`], by the observer of the watch.
@@ -92,13 +94,20 @@ impl Cleaned {
         watch: &Watch,
     ) -> Result<Self, Cancelled> {
         let steps = seen.steps();
+        let read = Arc::clone(seen.tracks());
         let as_read = Self { seen, unseen, base };
         let even = as_read.unless_worse(Evidence::with_regular_stamps, watch)?;
         let joined = even.unless_worse(Evidence::with_held_readings_joined, watch)?;
-        joined.unless_worse(|evidence| evidence.with_speeds_between_ticks(steps), watch)
+        let smooth =
+            joined.unless_worse(|evidence| evidence.with_speeds_between_ticks(steps), watch)?;
+        if *smooth.seen.tracks() == read {
+            return Ok(smooth);
+        }
+        let seen = with_remaining_noise(&smooth.seen, &smooth.base.fit, watch)?;
+        Ok(Self { seen, ..smooth })
     }
 
-    /// Evidence with cleaned readings and its re-estimated noise, unless the base fits worse.
+    /// Evidence with cleaned readings, unless the base fits worse.
     fn unless_worse(
         self,
         cleaned: impl Fn(&Evidence) -> Evidence,
@@ -113,9 +122,8 @@ impl Cleaned {
         let again = fit.refitted(&tried);
         let most = self.seen.settings().evidence.max_rise_by_cleaning;
         if again.objective < fit.objective + most {
-            let seen = with_remaining_noise(&tried, &again, watch)?;
             let base = Base { fit: again, ..self.base };
-            Ok(Self { seen, unseen: self.unseen.as_ref().map(cleaned), base })
+            Ok(Self { seen: tried, unseen: self.unseen.as_ref().map(cleaned), base })
         } else {
             Ok(Self { base: Base { fit, ..self.base }, ..self })
         }

@@ -110,6 +110,9 @@ fn the_page_adds_an_effect_to_model_second_simulator_and_trial() {
         let end = words.iter().position(|word| ***word == *"--").expect("names of tests");
         (words[..end].to_vec(), words[end..].to_vec())
     };
+    // The libraries are those of the project if they have its features. The program asks for all of
+    // them (`compiled_once`). It has no library of its own: with `--lib`, none of it is compiled.
+    let features = ["--package", "trackdyn-cli"];
     // Not optimised, the crates of the copy compile in a fraction of the time, and their few tests
     // take longer.
     let plain = crates::all().into_iter().filter(|of| of.name != "trackdyn").flat_map(|of| {
@@ -118,10 +121,14 @@ fn the_page_adds_an_effect_to_model_second_simulator_and_trial() {
     });
     let run = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
         .args(words)
+        .args(features)
         .args(["--offline", "--target-dir"])
         .arg(target)
         .args(plain)
         .args(filter)
+        // Set where tests are timed (`--report-time`); all libraries would be compiled anew by it,
+        // and again without it.
+        .env_remove("RUSTC_BOOTSTRAP")
         .current_dir(&folder)
         .output()
         .expect("cargo runs");

@@ -1,6 +1,7 @@
 //! The paper's experiment: nine manual paths, seen through sensors.
 
 use crate::recovery::{GAUGE, TRUTH};
+use rayon::prelude::*;
 use trackdyn_core::{PerSide, Plant, Pose, Trajectory};
 use trackdyn_drive::sensors::Preset;
 use trackdyn_drive::{Rolling, ScheduleKind, ScheduleOptions, Sensors};
@@ -31,25 +32,25 @@ fn driven(kind: ScheduleKind, sensors: &Sensors, seed: u64) -> Recording {
 
 #[test]
 fn nine_manual_paths_show_the_parameters_through_ticks_delays_and_noise() {
-    for (preset, precision) in [(Preset::Laboratory, 0.002), (Preset::Field, 0.006)] {
-        for seed in 1..4 {
-            let sensors = preset.sensors();
-            let recording = driven(ScheduleKind::Manual, &sensors, seed);
-            let genetic = GeneticOptions { generations: 1, ..GeneticOptions::default() };
-            let options = Options { genetic, ..Options::new(GAUGE) };
-            let found = identify(&recording, &options, &|_| ()).expect("enough segments");
-            let (tau, expected) = (found.clock.tau(), sensors.clock_offset());
-            // a sixth of the time between poses; stamps scatter by up to a tenth of it
-            assert!((tau - expected).abs() < 0.015, "{preset:?}: {tau} of {expected}");
-            let estimate = found.fits[1].least_squares.as_ref().expect("it settles");
-            for (k, truth) in TRUTH.into_iter().enumerate() {
-                let interval = estimate.interval(k).expect("free");
-                let error = interval.value - truth;
-                assert!(error.abs() < 4.0 * interval.deviation, "{k}: {interval:?} of {truth}");
-                // 2 mm of ICRs half a metre away are what the paper's figures resolve; outdoors,
-                // three times that
-                assert!(interval.deviation < precision, "{k}: {interval:?}");
-            }
+    let presets = [(Preset::Laboratory, 0.002), (Preset::Field, 0.006)];
+    let cases: Vec<_> = presets.into_iter().flat_map(|of| (1..4).map(move |k| (of, k))).collect();
+    cases.into_par_iter().for_each(|((preset, precision), seed)| {
+        let sensors = preset.sensors();
+        let recording = driven(ScheduleKind::Manual, &sensors, seed);
+        let genetic = GeneticOptions { generations: 1, ..GeneticOptions::default() };
+        let options = Options { genetic, ..Options::new(GAUGE) };
+        let found = identify(&recording, &options, &|_| ()).expect("enough segments");
+        let (tau, expected) = (found.clock.tau(), sensors.clock_offset());
+        // a sixth of the time between poses; stamps scatter by up to a tenth of it
+        assert!((tau - expected).abs() < 0.015, "{preset:?}: {tau} of {expected}");
+        let estimate = found.fits[1].least_squares.as_ref().expect("it settles");
+        for (k, truth) in TRUTH.into_iter().enumerate() {
+            let interval = estimate.interval(k).expect("free");
+            let error = interval.value - truth;
+            assert!(error.abs() < 4.0 * interval.deviation, "{k}: {interval:?} of {truth}");
+            // 2 mm of ICRs half a metre away are what the paper's figures resolve; outdoors,
+            // three times that
+            assert!(interval.deviation < precision, "{k}: {interval:?}");
         }
-    }
+    });
 }

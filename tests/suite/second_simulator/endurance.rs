@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use std::time::Instant;
 use trackdyn_core::{Command, PerSide, Plant, Schedule};
 use trackdyn_model::{RunningGear, Vehicle};
-use trackdyn_second_simulator::{ActiveMechanism, Form, MECHANISMS, Robot, Setup, Sheet};
+use trackdyn_second_simulator::{ActiveMechanism, Form, MECHANISMS, Robot, Setup};
 
 /// Steps, ramps and standstill as a restless driver makes them, s.
 fn restless(random: &mut ChaCha8Rng, duration: f64) -> Schedule {
@@ -60,16 +60,14 @@ fn wheeled() -> Vehicle {
 fn every_mechanism_drives_restlessly_on_tracks_and_wheels() {
     let mut random = ChaCha8Rng::seed_from_u64(1);
     let mut stopped = Vec::new();
-    let form = |sheet: &Sheet, number| match sheet.family {
-        Some(_) => Form::Drawn(number),
-        None => Form::Plain,
-    };
     for (number, sheet) in (0..).zip(MECHANISMS) {
-        let plain = typical(&[sheet.id]).remove(0);
-        let drawn = plain.clone().with(form(sheet, number)).expect("a form");
+        let mut forms = typical(&[sheet.id]);
+        if sheet.family.is_some() {
+            forms.push(forms[0].clone().with(Form::Drawn(number)).expect("a form"));
+        }
         for (name, vehicle) in [("tracks", auriga([-0.015, 0.04])), ("wheels", wheeled())] {
             let schedule = restless(&mut random, 10.0);
-            for active in [&plain, &drawn] {
+            for active in &forms {
                 match drives(&vehicle, std::slice::from_ref(active), &schedule) {
                     Ok(cost) => println!("{active} {name}: {:.3} s for a minute", 60.0 * cost),
                     Err(reason) => stopped.push(format!("{active} on {name}: {reason}")),

@@ -25,49 +25,69 @@ struct Subject {
     at: f64,
 }
 
+/// Turns of the patterns at the headings.
+struct Bases {
+    /// Their ICRs, m.
+    icrs: [[[f64; 3]; 3]; 2],
+    /// Where the turn of each pattern begins, seen from where it is measured.
+    starts: [Pose; 3],
+}
+
 impl Subject {
     fn new(active: Vec<ActiveMechanism>) -> Self {
         Self { active, setup: Setup::default(), at: 20.0 }
     }
 
-    fn icrs(&self, speeds: (f64, f64), target: Pose) -> [f64; 3] {
+    /// ICRs of a turn that may begin at `start`, seen from its target; `start` becomes where it
+    /// begins.
+    fn icrs(&self, speeds: (f64, f64), target: Pose, start: &mut Pose) -> [f64; 3] {
         let vehicle = auriga([0.0, 0.04]);
-        Turn {
-            vehicle: &vehicle,
-            active: &self.active,
-            setup: &self.setup,
-            speeds,
-            target,
-            at: self.at,
-        }
-        .icrs()
+        // steps of the same way at all speeds
+        let fastest = speeds.0.abs().max(speeds.1.abs());
+        let longest_step = self.setup.longest_step / fastest;
+        let setup = Setup { longest_step, ..self.setup.clone() };
+        let (vehicle, active, setup) = (&vehicle, self.active.as_slice(), &setup);
+        Turn { vehicle, active, setup, speeds, target, at: self.at }.icrs_from(start)
     }
 
-    /// ICRs of the patterns at the headings.
-    fn bases(&self) -> [[[f64; 3]; 3]; 2] {
-        HEADINGS.map(|yaw| PATTERNS.map(|pattern| self.icrs(pattern, Pose::new(0.0, 0.0, yaw))))
+    fn bases(&self) -> Bases {
+        let mut starts = [Pose::default(); 3];
+        let icrs = HEADINGS.map(|yaw| {
+            let target = Pose::new(0.0, 0.0, yaw);
+            std::array::from_fn(|k| self.icrs(PATTERNS[k], target, &mut starts[k]))
+        });
+        Bases { icrs, starts }
     }
 
     /// Largest change of an ICR from `bases` under the transformation of a symmetry, m; the first
     /// beyond `enough`, where there is one.
-    fn change(&self, symmetry: Symmetry, bases: &[[[f64; 3]; 3]; 2], enough: f64) -> f64 {
+    fn change(&self, symmetry: Symmetry, bases: &Bases, enough: f64) -> f64 {
+        // where the symmetry holds, the way of a turn is transformed as well
+        let mut starts = bases.starts.map(|start| match symmetry {
+            Symmetry::Reversal => start.inverse(),
+            Symmetry::Mirror => Pose::new(start.x, -start.y, -start.yaw),
+            _ => start,
+        });
         let mut worst = 0.0_f64;
-        for (heading, at_heading) in HEADINGS.into_iter().zip(bases) {
+        for (heading, at_heading) in HEADINGS.into_iter().zip(&bases.icrs) {
             let at = Pose::new(0.0, 0.0, heading);
             for (k, (left, right)) in PATTERNS.into_iter().enumerate() {
+                let start = &mut starts[k];
                 let other = match symmetry {
-                    Symmetry::SpeedScale => self.icrs((0.25 * left, 0.25 * right), at),
-                    Symmetry::Reversal => self.icrs((-left, -right), at),
+                    Symmetry::SpeedScale => self.icrs((0.25 * left, 0.25 * right), at, start),
+                    Symmetry::Reversal => self.icrs((-left, -right), at, start),
                     Symmetry::Manoeuvre => at_heading[0],
                     Symmetry::Mirror => {
-                        let [x_left, x_right, y] = self.icrs((right, left), at);
+                        let [x_left, x_right, y] = self.icrs((right, left), at, start);
                         [-x_right, -x_left, y]
                     }
-                    Symmetry::Heading => bases[0][k],
-                    Symmetry::Place => self.icrs((left, right), Pose::new(1.3, -2.6, heading)),
+                    Symmetry::Heading => bases.icrs[0][k],
+                    Symmetry::Place => {
+                        self.icrs((left, right), Pose::new(1.3, -2.6, heading), start)
+                    }
                     Symmetry::Time => {
                         let (active, setup) = (self.active.clone(), self.setup.clone());
-                        Self { active, setup, at: 120.0 }.icrs((left, right), at)
+                        Self { active, setup, at: 120.0 }.icrs((left, right), at, start)
                     }
                     Symmetry::Transient | Symmetry::Straight => unreachable!("not of turns"),
                 };

@@ -49,17 +49,23 @@ pub struct Turn<'a> {
 impl Turn<'_> {
     /// (x_l, x_r, y) from reported poses, paper's frame, m.
     pub fn icrs(&self) -> [f64; 3] {
-        let mut start = self.target;
+        self.icrs_from(&mut Pose::default())
+    }
+
+    /// As [`Turn::icrs`]. `start` is where the turn may begin, seen from its target. It becomes
+    /// where it begins: a turn of the same way takes one drive from there.
+    pub fn icrs_from(&self, start: &mut Pose) -> [f64; 3] {
         // the way to the target depends on where it begins, where the ground is not everywhere the
         // same
         let (truth, reported, [begin, end]) = loop {
-            let (truth, reported, span) = self.drive(start);
+            let from = self.target.compose(start);
+            let (truth, reported, span) = self.drive(from);
             let middle = truth.pose_at(f64::midpoint(span[0], span[1]));
             let missed = middle.relative(&self.target);
+            *start = middle.relative(&from);
             if missed.yaw.abs() < NEAR && missed.x.hypot(missed.y) < NEAR {
                 break (truth, reported, span);
             }
-            start = self.target.compose(&start.relative(&middle).inverse());
         };
         let [early, _] = reported.span().expect("a motion");
         let shift = early - truth.span().expect("a motion")[0];

@@ -1,6 +1,8 @@
 //! The laws of the catalogue beside those of the independent ground, which were written apart and
 //! share no code: what an effect does to a drive must be alike.
 
+use rayon::prelude::*;
+use std::sync::LazyLock;
 use trackdyn_core::{Command, PerSide, Plant, Pose, Schedule, Trajectory};
 use trackdyn_model::Transient;
 use trackdyn_model::{ActiveEffect, CATALOGUE, Effects, Model, RunningGear, Vehicle, VehicleFile};
@@ -101,49 +103,87 @@ fn change(with: &Trajectory, without: &Trajectory) -> Vec<f64> {
         .collect()
 }
 
-/// Effects that are not alike, added one by one to a robot that these act on already.
-fn unlike(vehicle: &Vehicle, beside: &[&str]) -> Vec<&'static str> {
-    compared(vehicle, beside, Form::Plain, |id| form(id).1, SIZE_RATIO)
+/// An effect that is added, and what our laws make of it.
+struct Ours {
+    id: &'static str,
+    /// What acts with it.
+    effects: Vec<ActiveEffect>,
+    change: Vec<f64>,
 }
 
-/// As [`unlike`], in a form of the independent laws, by a least cosine of each effect and the
-/// largest ratio of what both simulators make of it.
-fn compared(
-    vehicle: &Vehicle,
-    beside: &[&str],
-    of: Form,
-    alike: impl Fn(&str) -> f64,
-    size_ratio: f64,
-) -> Vec<&'static str> {
-    let typical = |id: &str| ActiveEffect::new(id, form(id).0).expect("typical sizes");
-    let beside: Vec<ActiveEffect> = beside.iter().map(|id| typical(id)).collect();
-    let base = (own(vehicle, &beside), independent(vehicle, &beside, Form::Plain));
-    let floor = norm(&change(&base.0, &base.1));
-    println!("base motions differ by {:.2} mm, mrad rms", rms(floor));
-    println!("{:24}{:>10}{:>10}{:>8}{:>8}", "effect", "own", "other", "cosine", "ratio");
-    let mut wrong = Vec::new();
-    let is_new = |id: &str| beside.iter().all(|effect| effect.card().id != id);
-    let has_form =
-        |id: &str| of == Form::Plain || sheet_of(id).is_some_and(|it| it.family.is_some());
-    let cards = CATALOGUE.iter().filter(|card| !card.is_form() && is_new(card.id));
-    for card in cards.filter(|card| has_form(card.id)) {
-        let effects: Vec<ActiveEffect> = beside.iter().cloned().chain([typical(card.id)]).collect();
-        let ours = change(&own(vehicle, &effects), &base.0);
-        let theirs = change(&independent(vehicle, &effects, of), &base.1);
-        let (size, other) = (norm(&ours), norm(&theirs));
-        let dot: f64 = ours.iter().zip(&theirs).map(|(a, b)| a * b).sum();
-        let (cosine, ratio) = (dot / (size * other), size / other);
-        println!("{:24}{:10.2}{:10.2}{cosine:8.3}{ratio:8.2}", card.id, rms(size), rms(other));
-        if cosine < alike(card.id) || ratio.max(1.0 / ratio) > size_ratio {
-            wrong.push(card.id);
-        }
+/// A robot to which effects are added one by one.
+struct Compared {
+    vehicle: Vehicle,
+    /// Motion of the independent simulator without them.
+    without: Trajectory,
+    /// Size of the difference of both simulators without them.
+    floor: f64,
+    ours: Vec<Ours>,
+}
+
+/// The robot on which nothing acts already.
+static PLAIN: LazyLock<Compared> =
+    LazyLock::new(|| Compared::new(VehicleFile::auriga_alpha().vehicle, &[]));
+
+impl Compared {
+    /// A robot to which effects are added that are not among these, which act on it already.
+    fn new(vehicle: Vehicle, beside: &[&str]) -> Self {
+        let typical = |id: &str| ActiveEffect::new(id, form(id).0).expect("typical sizes");
+        let beside: Vec<ActiveEffect> = beside.iter().map(|id| typical(id)).collect();
+        let base = own(&vehicle, &beside);
+        let without = independent(&vehicle, &beside, Form::Plain);
+        let floor = norm(&change(&base, &without));
+        let is_new = |id: &str| beside.iter().all(|effect| effect.card().id != id);
+        let ours = CATALOGUE.par_iter().filter(|card| !card.is_form() && is_new(card.id));
+        let ours = ours.map(|card| {
+            let effects: Vec<ActiveEffect> =
+                beside.iter().cloned().chain([typical(card.id)]).collect();
+            let change = change(&own(&vehicle, &effects), &base);
+            Ours { id: card.id, effects, change }
+        });
+        let ours = ours.collect();
+        Self { vehicle, without, floor, ours }
     }
-    wrong
+
+    /// Effects that are not alike, in the plain form of the independent laws.
+    fn unlike(&self) -> Vec<&'static str> {
+        self.unlike_in(Form::Plain, |id| form(id).1, SIZE_RATIO)
+    }
+
+    /// As [`Compared::unlike`], in a form of the independent laws, by a least cosine of each effect
+    /// and the largest ratio of what both simulators make of it.
+    fn unlike_in(
+        &self,
+        of: Form,
+        alike: impl Fn(&str) -> f64,
+        size_ratio: f64,
+    ) -> Vec<&'static str> {
+        let has_form =
+            |id: &str| of == Form::Plain || sheet_of(id).is_some_and(|it| it.family.is_some());
+        let compared: Vec<&Ours> = self.ours.iter().filter(|ours| has_form(ours.id)).collect();
+        let theirs: Vec<Vec<f64>> = compared
+            .par_iter()
+            .map(|ours| change(&independent(&self.vehicle, &ours.effects, of), &self.without))
+            .collect();
+        println!("base motions differ by {:.2} mm, mrad rms", rms(self.floor));
+        println!("{:24}{:>10}{:>10}{:>8}{:>8}", "effect", "own", "other", "cosine", "ratio");
+        let mut wrong = Vec::new();
+        for (Ours { id, change: ours, .. }, theirs) in compared.into_iter().zip(theirs) {
+            let (size, other) = (norm(ours), norm(&theirs));
+            let dot: f64 = ours.iter().zip(&theirs).map(|(a, b)| a * b).sum();
+            let (cosine, ratio) = (dot / (size * other), size / other);
+            println!("{id:24}{:10.2}{:10.2}{cosine:8.3}{ratio:8.2}", rms(size), rms(other));
+            if cosine < alike(id) || ratio.max(1.0 / ratio) > size_ratio {
+                wrong.push(*id);
+            }
+        }
+        wrong
+    }
 }
 
 #[test]
 fn effects_do_the_same_in_both_simulators() {
-    assert_eq!(unlike(&VehicleFile::auriga_alpha().vehicle, &[]), [""; 0]);
+    assert_eq!(PLAIN.unlike(), [""; 0]);
 }
 
 /// Least cosine between an effect and a drawn form of its law: the least that the plain form of
@@ -156,10 +196,8 @@ const DRAWN_SIZE_RATIO: f64 = 4.0;
 
 #[test]
 fn drawn_forms_do_about_the_same_at_the_same_size() {
-    let vehicle = VehicleFile::auriga_alpha().vehicle;
     for number in 1..=3 {
-        let form = Form::Drawn(number);
-        let unlike = compared(&vehicle, &[], form, |_| RELATED, DRAWN_SIZE_RATIO);
+        let unlike = PLAIN.unlike_in(Form::Drawn(number), |_| RELATED, DRAWN_SIZE_RATIO);
         assert_eq!(unlike, [""; 0], "form {number}");
     }
 }
@@ -170,14 +208,15 @@ fn effects_do_the_same_to_a_robot_on_wheels() {
     let mut vehicle = VehicleFile::auriga_alpha().vehicle;
     vehicle.running_gear =
         RunningGear::Wheels { contact_length: 0.12, width: 0.1, axles: vec![0.25, -0.25] };
-    assert_eq!(unlike(&vehicle, &[]), [""; 0]);
+    assert_eq!(Compared::new(vehicle, &[]).unlike(), [""; 0]);
 }
 
 /// Forces that only speeding up knows, such as the load that a high centre of gravity throws back.
 #[test]
 fn effects_do_the_same_to_a_robot_with_mass() {
     let vehicle = VehicleFile::auriga_alpha().vehicle;
-    assert_eq!(unlike(&vehicle, &["yaw-inertia", "centripetal"]), [""; 0]);
+    let compared = Compared::new(vehicle, &["yaw-inertia", "centripetal"]);
+    assert_eq!(compared.unlike(), [""; 0]);
 }
 
 fn norm(values: &[f64]) -> f64 {

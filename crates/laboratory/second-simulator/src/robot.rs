@@ -202,7 +202,7 @@ impl Robot {
         } else {
             self.firm.solve(&mut balance, &belt)?
         };
-        let outcome = balance.settle(&mut self.trial, &end);
+        let outcome = balance.settle(&mut self.trial);
         let Trial { twist, belt } = end;
         for side in Side::BOTH {
             self.trial.roll(side, belt[side] * dt / 2.0);

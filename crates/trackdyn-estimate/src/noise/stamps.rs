@@ -99,8 +99,9 @@ fn whitened(triple: &Triple, variances: &Logarithms) -> Option<(f64, f64)> {
     let drift: Vector3<f64> = variances.fixed_rows::<3>(3).into();
     let of_pose = Matrix3::from_diagonal(&own) + twist * twist.transpose() * variances[STAMP];
     let factor = (of_pose * *white + Matrix3::from_diagonal(&drift) * *walk).cholesky()?;
-    let ln_determinant = -factor.l_dirty().diagonal().map(f64::ln).sum();
-    Some((ln_determinant, off.dot(&factor.solve(off))))
+    let factor = factor.l_dirty();
+    let ln_determinant = -factor.diagonal().product().ln();
+    Some((ln_determinant, factor.solve_lower_triangular(off)?.norm_squared()))
 }
 
 #[cfg(test)]

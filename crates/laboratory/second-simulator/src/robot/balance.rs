@@ -128,12 +128,11 @@ impl<'a> Balance<'a> {
         sprocket * (1.0 - slips.sum::<f64>())
     }
 
-    /// Brings the shoes to the step's end.
-    pub(super) fn settle(&mut self, gear: &mut Gear, trial: &Trial) -> Outcome {
+    /// Brings the shoes to the step's end, which is the trial that was looked at last.
+    pub(super) fn settle(&self, gear: &mut Gear) -> Outcome {
         let zero = PerSide::new(0.0, 0.0);
         let mut outcome = Outcome { traction: zero, heat: zero };
         for side in Side::BOTH {
-            self.react(side, trial);
             let Shoes { contacts, end, acting, .. } = &self.shoes[side];
             for (Contact { slip, .. }, Acting { force, .. }) in contacts.iter().zip(acting) {
                 outcome.traction[side] += force[1];

@@ -77,7 +77,7 @@ impl Scaled<'_, '_> {
 
 impl<const N: usize> Newton<N> {
     /// The end of a step, looked for from where it starts, with belts at speeds `belt`; or why
-    /// there is none.
+    /// there is none. The end is the trial that the balance looked at last.
     pub(super) fn solve(
         &mut self,
         balance: &mut Balance,

@@ -13,7 +13,7 @@ use crate::wording::option;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use trackdyn::recording::BagOptions;
-use trackdyn::recording::{Columns, Dating, DoubtKind, JointSignal, SpeedUnit};
+use trackdyn::recording::{Columns, Dating, DoubtKind, JointSignal, PoseAxes, SpeedUnit};
 use trackdyn::{ActiveEffect, Circumstance, Part, ReadOptions, Recording, RunList, Symmetry};
 use trackdyn::{Effects, Pose, Stage};
 
@@ -163,6 +163,9 @@ pub struct RecordingOptions {
     /// Bag: what dates its messages [default: their headers, or the log where clocks differ]
     #[arg(long, value_name = "CLOCK")]
     dated_by: Option<DatedBy>,
+    /// Axes of the poses: ned has y to the right of x and counts yaw clockwise [default: ros]
+    #[arg(long, value_name = "AXES")]
+    pose_axes: Option<Axes>,
     /// Yaw in degrees of the pose sensor on the robot: 180 where it faces backwards
     #[arg(long, value_name = "DEG", value_parser = finite, allow_hyphen_values = true)]
     mount_yaw: Option<f64>,
@@ -173,6 +176,15 @@ pub struct RecordingOptions {
     /// yaw-unit, orientation, out-of-plane, signs, dead-encoder, stuck-poses
     #[arg(long, value_name = "DOUBT")]
     accept: Vec<DoubtKind>,
+}
+
+/// Axes in which poses are told.
+#[derive(Clone, Copy, ValueEnum)]
+enum Axes {
+    /// x forward or east, y to its left, yaw counter-clockwise (REP-103)
+    Ros,
+    /// North, east, down: y to the right of x, yaw clockwise
+    Ned,
 }
 
 /// Units of the yaw rates of an IMU.
@@ -272,6 +284,10 @@ impl RecordingOptions {
                     None => Dating::Any,
                     Some(DatedBy::Header) => Dating::Header,
                     Some(DatedBy::Log) => Dating::Log,
+                },
+                pose_axes: match self.pose_axes {
+                    None | Some(Axes::Ros) => PoseAxes::Ros,
+                    Some(Axes::Ned) => PoseAxes::NorthEastDown,
                 },
                 mount_yaw: self.mount_yaw.map(f64::to_radians),
                 gyro_in_degrees: matches!(self.gyro_unit, Some(GyroUnit::Degrees)),

@@ -25,6 +25,10 @@ use nalgebra::{DMatrix, DVector, Vector3};
 const SETTINGS: Settings =
     Settings { max_iterations: 100, settled_below: 1e-8, newton_below: 1e-4 };
 
+/// Largest last step, in standard errors of what is known best, of an iteration that counts as
+/// settled where it has not: beside outliers a step may go on to be small.
+const MAX_OPEN_STEP: f64 = 0.01;
+
 /// What is fitted: kinematic parameters, and properties of the pose sensor beside them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unknowns {
@@ -72,16 +76,22 @@ pub fn least_squares(
     let start = problem.at(Point { parameters: *start, sensor: Sensor { tau, yaw: 0.0 } });
     let Minimum { point: (point, here), status, iterations, last_change } =
         minimise(&problem, start, &SETTINGS);
+    let estimate = || here.estimate(&point, unknowns, observations, weighting, loss, iterations);
     match status {
-        Status::Settled => {
-            Ok(here.estimate(&point, unknowns, observations, weighting, loss, iterations))
-        }
+        Status::Settled => Ok(estimate()),
         Status::Unobserved => {
             let margin = observations.tau_margin();
             let edge = tau + margin.copysign(point.sensor.tau - tau);
             Err(Error::ClockLeaves { tau: edge, start: tau, margin })
         }
-        Status::NotSettled => Err(Error::NotConverged { iterations, step: last_change }),
+        Status::NotSettled => {
+            let estimate = estimate();
+            let intervals = (0..Parameters::NAMES.len()).filter_map(|k| estimate.interval(k));
+            let least = intervals.map(|of| of.deviation).fold(f64::INFINITY, f64::min);
+            let is_open = last_change > MAX_OPEN_STEP * least || !least.is_finite();
+            let open = Error::NotConverged { iterations, step: last_change };
+            if is_open { Err(open) } else { Ok(estimate) }
+        }
     }
 }
 

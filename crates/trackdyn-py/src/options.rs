@@ -6,7 +6,7 @@ use std::fmt::Display;
 use std::path::PathBuf;
 use std::str::FromStr;
 use trackdyn::crates::recording::rosbag::{Dating, JointSignal};
-use trackdyn::recording::BagOptions;
+use trackdyn::recording::{BagOptions, PoseAxes};
 use trackdyn::{Part, ReadOptions};
 
 /// The keywords of reading, as a dict of all of them.
@@ -32,6 +32,7 @@ pub struct Reading {
     speed_unit: Option<String>,
     msg_dir: Option<PathBuf>,
     dated_by: Option<String>,
+    pose_axes: Option<String>,
     mount_yaw: Option<f64>,
     gyro_unit: Option<String>,
     accept: Vec<String>,
@@ -48,6 +49,11 @@ impl Reading {
         let dated_by =
             named("dated_by", self.dated_by, &[("header", Dating::Header), ("log", Dating::Log)])?;
         let in_degrees = named("gyro_unit", self.gyro_unit, &[("rad/s", false), ("deg/s", true)])?;
+        let pose_axes = named(
+            "pose_axes",
+            self.pose_axes,
+            &[("ros", PoseAxes::Ros), ("ned", PoseAxes::NorthEastDown)],
+        )?;
         let accepted = self.accept.into_iter().map(|doubt| parsed("accept", &doubt));
         Ok(ReadOptions {
             tracks: self.tracks,
@@ -70,6 +76,7 @@ impl Reading {
                 speed_unit: self.speed_unit.map(|text| parsed("speed_unit", &text)).transpose()?,
                 msg_dir: self.msg_dir,
                 dated_by: dated_by.unwrap_or_default(),
+                pose_axes: pose_axes.unwrap_or_default(),
                 mount_yaw: self.mount_yaw,
                 gyro_in_degrees: in_degrees.unwrap_or_default(),
                 accepted: accepted.collect::<PyResult<_>>()?,

@@ -61,7 +61,8 @@ CALLS = {
     **_keywords(
         lambda of, given: td.read_recording(NONE, **given),
         *("tracks", "columns", "pose_topic", "left_joints", "joint_signal", "wheel_radius"),
-        *("pose_index", "speed_unit", "msg_dir", "dated_by", "mount_yaw", "gyro_unit", "accept"),
+        *("pose_index", "speed_unit", "msg_dir", "dated_by", "pose_axes", "mount_yaw", "gyro_unit"),
+        "accept",
     ),
     "tracks of arrays": lambda of, value: td.Recording.from_arrays(value, of["poses"]),
     "poses of arrays": lambda of, value: td.Recording.from_arrays(of["tracks"], value),

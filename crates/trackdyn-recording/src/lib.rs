@@ -36,7 +36,8 @@ pub use error::Error;
 pub use format::read;
 pub use operating_points::{OperatingPoint, OperatingPoints};
 pub use recording::{
-    BagNames, Format, PoseFrame, Recording, Run, Source, StatedNoise, UncheckedRun, Warning,
+    BagNames, Format, PoseAxes, PoseFrame, Recording, Run, Source, StatedNoise, UncheckedRun,
+    Warning,
 };
 pub use sample::{ImuSample, PoseSample, Series, TrackSample};
 pub use selection::RunList;

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 mod bias;
 mod cleaning;
+mod clock_rate;
 mod content;
 mod contradictions;
 mod dead;
@@ -25,6 +26,7 @@ mod source;
 mod spikes;
 mod stretches;
 mod stuck;
+mod stuck_gyro;
 mod warning;
 mod wide_spikes;
 
@@ -34,7 +36,7 @@ pub use finding::{Cleaning, Finding};
 pub(crate) use headings::{headings, turn_by_gyroscope};
 pub use kept::Kept;
 pub(crate) use run::turn_sensor;
-pub use run::{Run, UncheckedRun};
+pub use run::{PoseAxes, Run, UncheckedRun};
 pub use source::{BagNames, Format, Source};
 pub use warning::Warning;
 
@@ -141,10 +143,12 @@ impl Recording {
             refuse(&path, &mut doubts, accepted, &mut warnings)?;
             doubts.extend(contradictions::of_runs(&kept));
             refuse(&path, &mut doubts, accepted, &mut warnings)?;
+            clock_rate::set_back(&mut kept, &mut cleanings);
             frozen::leave_out(&mut kept, &mut cleanings);
             saturated::leave_out(&mut kept, &mut cleanings);
             bias::take_off(&mut kept, &mut cleanings);
             warnings.extend(gyro_unit::leave_out(&mut kept));
+            stuck_gyro::leave_out(&mut kept, &mut cleanings);
         }
         dead::leave_out(&mut kept, &mut cleanings);
         leave_out(&mut kept, &mut warnings);
@@ -168,6 +172,7 @@ impl Recording {
             let (offset, run) = (run.offset_without_common_time()?, run.id());
             Some(Warning::NoCommonTime { run, offset })
         }));
+        warnings.extend(Warning::imu_of_a_part(&kept));
         let runs = kept.iter().filter(|run| !run.has_positions()).count();
         if runs > 0 {
             warnings.push(Warning::PositionsUnknown { runs, of: kept.len() });

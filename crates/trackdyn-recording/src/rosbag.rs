@@ -15,7 +15,7 @@
 //! base_link.
 
 use crate::doubt::Doubt;
-use crate::recording::{BagNames, Recording, Source, UncheckedRun, turn_sensor};
+use crate::recording::{BagNames, PoseAxes, Recording, Source, UncheckedRun, turn_sensor};
 use crate::unit::{self, SpeedUnit};
 use crate::{Error, Format};
 use std::path::Path;
@@ -74,7 +74,7 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
     let mut collector = collector::Collector::new(options, signals);
     let mut warnings = storage::scan(path, &mut collector)?;
     let mut collected = collector.finish(path)?;
-    turn_sensor(&mut collected.runs, options.mount_yaw);
+    turn_sensor(&mut collected.runs, options.pose_axes, options.mount_yaw);
     warnings.extend(collected.warnings);
     warnings.extend(twist::warning(options));
     let name = storage::name(path);
@@ -85,6 +85,9 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
         names: Some(Box::new(collected.names.of_robot(options, radius))),
     };
     let joints = collected.names.joints;
+    // Words of their names tell the sides where no option does.
+    let are_named = options.left_joints.is_empty() && options.right_joints.is_empty();
+    let axes = options.pose_axes;
     let is_in_radians = options.speed_unit.is_none_or(|unit| unit == SpeedUnit::RadiansPerSecond);
     let radius = radius.filter(|_| is_in_radians);
     let are_joints = options.twist_topic.is_none();
@@ -93,7 +96,8 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
     Recording::accepting(name, "unknown", collected.runs, source, warnings, &options.accepted)
         .map_err(|error| {
             if are_joints {
-                with_options(error, &joints, kind, radius, is_gyroscope)
+                let told = Told { kind, radius, is_gyroscope, are_named, axes };
+                with_options(error, &joints, &told)
             } else {
                 error
             }
@@ -116,15 +120,23 @@ impl BagNames {
     }
 }
 
-/// An error with the options that help, by the joints of each side as they were taken and, where
-/// these are wheels, their radius, m. `is_yaw_alone` says that the poses are those of a gyroscope.
-fn with_options(
-    error: Error,
-    taken: &PerSide<Vec<String>>,
-    kind: &str,
+/// What is known of how a bag was read.
+struct Told<'a> {
+    /// What the sides are made of: joints or signals.
+    kind: &'a str,
+    /// Radius of the wheels, m, where speeds are theirs in rad/s.
     radius: Option<f64>,
-    is_yaw_alone: bool,
-) -> Error {
+    /// Whether the poses are the yaw of a gyroscope alone.
+    is_gyroscope: bool,
+    /// Whether joints were taken by the words of their names.
+    are_named: bool,
+    /// Axes in which poses were taken to be told.
+    axes: PoseAxes,
+}
+
+/// An error with the options that help, by the joints of each side as they were taken.
+fn with_options(error: Error, taken: &PerSide<Vec<String>>, told: &Told) -> Error {
+    let Told { kind, radius, is_gyroscope, are_named, axes } = *told;
     let Error::Contradiction { path, doubt, remedy, .. } = error else { return error };
     if let Doubt::Travel { ratio, .. } = doubt
         && let Some((units, remedy)) = radius.and_then(|radius| unit::of_tracks(ratio, radius))
@@ -162,15 +174,27 @@ fn with_options(
         Doubt::Swapped => {
             let joints = PerSide::new(taken.right.clone(), taken.left.clone());
             let [left, right] = Side::BOTH.map(|side| option(side, &joints[side]));
-            let remedy = if is_yaw_alone {
+            let remedy = if is_gyroscope {
                 format!(
                     "the gyroscope is upside down, or the sides are swapped: either way, \
                      {left} {right} give the same distance of the ICRs"
                 )
+            } else if axes == PoseAxes::NorthEastDown {
+                format!("leave out --pose-axes ned, or swap the sides by {left} {right}")
+            } else if are_named && told.kind == "joint" {
+                format!(
+                    "the names of the joints tell left from right, so poses count yaw clockwise, \
+                     as north-east-down does: --pose-axes ned reads them. Where the names are \
+                     wrong, swap the sides by {left} {right}"
+                )
             } else {
-                format!("swap the sides by {left} {right}, or choose poses whose z axis points up")
+                format!(
+                    "swap the sides by {left} {right}, or where poses count yaw clockwise, as \
+                     north-east-down does, read them by --pose-axes ned"
+                )
             };
-            (Some(joints), remedy)
+            // Poses that are mirrored look like sides that are swapped: which it is, names tell.
+            ((!are_named || is_gyroscope).then_some(joints), remedy)
         }
         Doubt::Backwards => {
             let joints = PerSide::new(reversed(&taken.right), reversed(&taken.left));

@@ -2,7 +2,7 @@
 
 use crate::Error;
 use crate::doubt::DoubtKind;
-use crate::recording::{UncheckedRun, turn_sensor};
+use crate::recording::{PoseAxes, UncheckedRun, turn_sensor};
 use crate::unit::SpeedUnit;
 use std::path::Path;
 
@@ -13,6 +13,8 @@ pub struct TableOptions {
     pub speed_unit: Option<SpeedUnit>,
     /// Belt travel per radian, m, where these are speeds of wheels.
     pub wheel_radius: Option<f64>,
+    /// Axes in which the poses are told.
+    pub pose_axes: PoseAxes,
     /// Yaw of the x axis of the pose sensor on the robot, rad: π where it faces backwards.
     pub mount_yaw: Option<f64>,
     /// Whether the yaw rates of the IMU are in degrees per second.
@@ -37,7 +39,7 @@ impl TableOptions {
                 reading.gyro_z = reading.gyro_z.to_radians();
             }
         }
-        turn_sensor(runs, self.mount_yaw);
+        turn_sensor(runs, self.pose_axes, self.mount_yaw);
         Ok(())
     }
 }

@@ -12,7 +12,7 @@ pub use options::ReadOptions;
 pub use part::Part;
 pub use points::PointsTable;
 pub use trackdyn_recording::rosbag::{Dating, JointSignal};
-pub use trackdyn_recording::{Columns, DoubtKind, PoseFrame, SpeedUnit};
+pub use trackdyn_recording::{Columns, DoubtKind, PoseAxes, PoseFrame, SpeedUnit};
 
 use crate::Error;
 use std::path::{Path, PathBuf};

@@ -32,6 +32,7 @@ def reading(
     speed_unit: str | None = None,
     msg_dir: str | os.PathLike[str] | None = None,
     dated_by: str | None = None,
+    pose_axes: str | None = None,
     mount_yaw: float | None = None,
     gyro_unit: str | None = None,
     accept: str | Sequence[str] | None = None,
@@ -51,6 +52,7 @@ def reading(
             "twist_topic": twist_topic,
             "speed_unit": speed_unit,
             "dated_by": dated_by,
+            "pose_axes": pose_axes,
             "gyro_unit": gyro_unit,
         },
         _values.number: {
@@ -112,6 +114,8 @@ def read_recording(path: str | os.PathLike[str], **options: Any) -> Recording:
         Folder of definitions of messages, for signals of a bag that has none.
     dated_by : {"header", "log"}
         Of a bag: what dates its messages.
+    pose_axes : {"ros", "ned"}
+        Axes of the poses: of ned (north, east, down), y points right and yaw counts clockwise.
     mount_yaw : float
         Yaw of the pose sensor on the robot, rad: pi where it faces backwards.
     gyro_unit : {"rad/s", "deg/s"}

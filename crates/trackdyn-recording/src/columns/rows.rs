@@ -47,7 +47,7 @@ pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Re
         return Err(Error::Empty { path: path.to_owned(), message });
     }
     let mut runs = rows(table, columns, scales, options.gyro_in_degrees)?;
-    turn_sensor(&mut runs, options.mount_yaw);
+    turn_sensor(&mut runs, options.pose_axes, options.mount_yaw);
     let mut warnings = Vec::new();
     let gyroscope = columns.columns.get(&Key::Gyro);
     if let Some(gyroscope) = gyroscope.filter(|_| !columns.columns.contains_key(&Key::X)) {

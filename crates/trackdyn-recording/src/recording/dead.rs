@@ -1,15 +1,20 @@
-//! Readings of a side at exactly zero while its track moves: an encoder that is dead for a while.
+//! Readings of a side that stay the same while its track moves otherwise: an encoder that is dead
+//! for a while, and shows zero or its last speed.
 //!
 //! # Law
 //! Three or more zeros of a side in a row are in question where the speed falls to them at once
 //! and comes back to as much in the same direction, more than a third of the usual one; where they
-//! last for long, one of both is enough. What the track ran then is told twice by the other side:
-//! by the turn of the poses, and by their way forward. The encoder was dead where both agree on a
-//! way of more than a third of the usual speed, in the second half of the zeros as well: where the
-//! readings are commands, a track rolls out and stands. A robot that stops stands by its poses as
-//! well; on ice it slides on for a while, which is why a speed has to come back.
+//! last for long, one of both is enough. Another speed is in question where the readings of the
+//! side hardly ever repeat, as those of commands or of coarse encoders do, and where it jumps by
+//! that much at the end, or lasts for long.
 //!
-//! A few zeros are replaced by the line between the readings beside them; more are dropped, which
+//! What the track ran then is told twice by the other side: by the turn of the poses, and by their
+//! way forward. The encoder was dead where both agree on a way that is off by more than a third of
+//! the usual speed, in the second half of the time as well: where the readings are commands, a
+//! track rolls out and stands. A robot that stops stands by its poses as well; on ice it slides on
+//! for a while, which is why a speed has to come back.
+//!
+//! A few readings are replaced by the line between those beside them; more are dropped, which
 //! leaves a gap: nobody knows what the track did within.
 
 use super::Run;
@@ -22,39 +27,43 @@ use std::ops::Range;
 use trackdyn_core::robust::{median, usual_interval};
 use trackdyn_core::{PerSide, Side, real};
 
-/// Fewest zeros in a row; fewer are spikes.
-const MIN_ZEROS: usize = 3;
+/// Fewest equal readings in a row; fewer are spikes or chance.
+const MIN_EQUAL: usize = 3;
+
+/// Largest share of the readings of a side that repeat the one before and are not zero, where a
+/// speed that stays the same is in question.
+const MAX_REPEATED: f64 = 0.1;
 
 /// Share of the usual speed that a track has to have had.
 const MIN_SHARE: f64 = 1.0 / 3.0;
 
-/// Time of zeros that no slide lasts, s.
+/// Time that no slide lasts, s.
 const MIN_LONG: f64 = 3.0;
 
 /// Agreement of both ways from which on they are those of one track.
 const MIN_AGREEMENT: f64 = 0.5;
 
-/// Longest time between the poses around the zeros, in times of the zeros.
+/// Longest time between the poses around equal readings, in times of these.
 const MAX_WIDENING: f64 = 2.0;
 
-/// Least time of the pieces that a long time of zeros is cut into, s.
+/// Least time of the pieces that a long time is cut into, s.
 const MIN_PIECE: f64 = 0.25;
 
-/// Zeros in a row of a side.
+/// Equal readings in a row of a side.
 #[derive(Clone, Debug)]
-struct Zeros {
+struct Equal {
     run: usize,
     side: Side,
     rows: Range<usize>,
-    /// Stamps of the first zero and of the reading after the last, s.
+    /// Stamps of the first and of the reading after the last, s.
     time: [f64; 2],
 }
 
 /// Bridges or drops the readings of dead encoders; `cleanings` takes what was found.
 pub(super) fn leave_out(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
     let usual = PerSide::from_fn(|side: Side| usual_speed(runs, side));
-    let questioned: Vec<Zeros> = (0..runs.len())
-        .flat_map(|run| Side::BOTH.map(|side| zeros(run, &runs[run], side, usual[side])))
+    let questioned: Vec<Equal> = (0..runs.len())
+        .flat_map(|run| Side::BOTH.map(|side| equals(run, &runs[run], side, usual[side])))
         .flatten()
         .collect();
     if questioned.is_empty() {
@@ -66,10 +75,10 @@ pub(super) fn leave_out(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
         times[run].get(next).is_some_and(|[from, _]| *from < piece.end - delay)
     };
     let Some(following) = Following::of(runs, &meets) else { return };
-    let is_dead = |zeros: &Zeros| moved(&runs[zeros.run], zeros, &following, usual[zeros.side]);
-    let dead: Vec<Zeros> = questioned.iter().filter(|zeros| is_dead(zeros)).cloned().collect();
+    let is_dead = |equal: &Equal| moved(&runs[equal.run], equal, &following, usual[equal.side]);
+    let dead: Vec<Equal> = questioned.iter().filter(|equal| is_dead(equal)).cloned().collect();
     for (index, run) in runs.iter_mut().enumerate() {
-        let of_run: Vec<&Zeros> = dead.iter().filter(|zeros| zeros.run == index).collect();
+        let of_run: Vec<&Equal> = dead.iter().filter(|equal| equal.run == index).collect();
         let Some(first) = of_run.first() else { continue };
         cleanings.push(Cleaning {
             stream: Stream::Tracks,
@@ -86,9 +95,9 @@ pub(super) fn leave_out(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
 }
 
 /// The times of a run that are in question, apart from each other and in order, s.
-fn times(questioned: &[Zeros], run: usize) -> Vec<[f64; 2]> {
-    let of_run = questioned.iter().filter(|zeros| zeros.run == run);
-    let mut all: Vec<[f64; 2]> = of_run.map(|zeros| zeros.time).collect();
+fn times(questioned: &[Equal], run: usize) -> Vec<[f64; 2]> {
+    let of_run = questioned.iter().filter(|equal| equal.run == run);
+    let mut all: Vec<[f64; 2]> = of_run.map(|equal| equal.time).collect();
     all.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let mut apart: Vec<[f64; 2]> = Vec::with_capacity(all.len());
     for [from, until] in all {
@@ -106,43 +115,47 @@ fn usual_speed(runs: &[Run], side: Side) -> f64 {
     median(&mut speeds.filter(|speed| *speed > 0.0).collect::<Vec<_>>()).unwrap_or(f64::INFINITY)
 }
 
-/// The zeros of a side that are in question.
-fn zeros(index: usize, run: &Run, side: Side, usual: f64) -> Vec<Zeros> {
+/// Equal readings of a side that are in question.
+fn equals(index: usize, run: &Run, side: Side, usual: f64) -> Vec<Equal> {
     let tracks = run.tracks();
     let speed = |row: usize| tracks[row].speeds()[side];
+    let is_repeated = |row: &usize| speed(*row) != 0.0 && speed(*row) == speed(*row - 1);
+    let repeated = (1..tracks.len()).filter(is_repeated).count();
+    let repeats = real(repeated) > MAX_REPEATED * real(tracks.len());
+    let is_fast = |speed: f64| speed.abs() > MIN_SHARE * usual;
     let mut found = Vec::new();
-    let mut row = 0;
-    while row < tracks.len() {
-        let start = row;
-        while row < tracks.len() && speed(row) == 0.0 {
-            row += 1;
-        }
-        let rows = start..row;
-        row += 1;
-        if rows.len() < MIN_ZEROS {
+    let mut end = 0;
+    for equal in tracks.chunk_by(|a, b| a.speeds()[side] == b.speeds()[side]) {
+        let rows = end..end + equal.len();
+        end = rows.end;
+        let shown = speed(rows.start);
+        if rows.len() < MIN_EQUAL || shown != 0.0 && repeats {
             continue;
         }
-        let beside = [rows.start.checked_sub(1), Some(rows.end).filter(|end| *end < tracks.len())];
-        let is_fast = |beside: &usize| speed(*beside).abs() > MIN_SHARE * usual;
-        let after = rows.end.min(tracks.len() - 1);
-        let time = [tracks[rows.start].t, tracks[after].t];
-        let is_questioned = match beside {
-            _ if time[1] - time[0] >= MIN_LONG => {
-                beside.iter().all(Option::is_none) || beside.iter().flatten().any(is_fast)
+        let beside = [rows.start.checked_sub(1), Some(end).filter(|end| *end < tracks.len())];
+        let [before, after] = beside.map(|row| row.map(speed));
+        let last = end.min(tracks.len() - 1);
+        let time = [tracks[rows.start].t, tracks[last].t];
+        let is_long = time[1] - time[0] >= MIN_LONG;
+        let is_questioned = if shown != 0.0 {
+            is_long || after.is_some_and(|after| is_fast(after - shown))
+        } else {
+            match [before, after] {
+                [None, None] => is_long,
+                [Some(a), Some(b)] if is_fast(a) && is_fast(b) && a * b > 0.0 => true,
+                both => is_long && both.into_iter().flatten().any(is_fast),
             }
-            [Some(a), Some(b)] => is_fast(&a) && is_fast(&b) && speed(a) * speed(b) > 0.0,
-            _ => false,
         };
         if is_questioned {
-            found.push(Zeros { run: index, side, rows, time });
+            found.push(Equal { run: index, side, rows, time });
         }
     }
     found
 }
 
-/// Whether the track moved in these zeros by what the poses say.
-fn moved(run: &Run, zeros: &Zeros, following: &Following, usual: f64) -> bool {
-    let [from, until] = zeros.time.map(|t| t + following.delay);
+/// Whether the track moved otherwise by what the poses say.
+fn moved(run: &Run, equal: &Equal, following: &Following, usual: f64) -> bool {
+    let [from, until] = equal.time.map(|t| t + following.delay);
     let poses = run.poses();
     let first = poses.partition_point(|pose| pose.t <= from).saturating_sub(1);
     let last = poses.partition_point(|pose| pose.t < until).min(poses.len().saturating_sub(1));
@@ -154,9 +167,9 @@ fn moved(run: &Run, zeros: &Zeros, following: &Following, usual: f64) -> bool {
     let mut ways: Vec<[f64; 2]> = Vec::new();
     for piece in cut(poses) {
         let read = following.ways(run, &piece);
-        let [by_turn, by_way] = following.way(zeros.side, &piece, read);
-        let by_turn = by_turn.unwrap_or(0.0) - read[zeros.side];
-        let by_way = by_way.map_or(by_turn, |way| way - read[zeros.side]);
+        let [by_turn, by_way] = following.way(equal.side, &piece, read);
+        let by_turn = by_turn.unwrap_or(0.0) - read[equal.side];
+        let by_way = by_way.map_or(by_turn, |way| way - read[equal.side]);
         ways.push([by_turn, by_way]);
     }
     // A track that rolls out stands in the end.
@@ -181,25 +194,25 @@ fn cut(poses: &[PoseSample]) -> Vec<Piece> {
     pieces
 }
 
-/// Bridges short zeros and drops the readings of long ones.
-fn mend(run: &mut Run, dead: &[&Zeros]) {
+/// Bridges few equal readings and drops more of them.
+fn mend(run: &mut Run, dead: &[&Equal]) {
     let times: Vec<f64> = run.tracks().iter().map(|reading| reading.t).collect();
     let longest = MIN_GAP_RATIO * usual_interval(times.iter().copied());
-    let is_short = |zeros: &Zeros| zeros.time[1] - zeros.time[0] < longest;
-    for zeros in dead.iter().filter(|zeros| is_short(zeros)) {
+    let is_short = |equal: &Equal| equal.time[1] - equal.time[0] < longest;
+    for equal in dead.iter().filter(|equal| is_short(equal)) {
         let mut speeds: Vec<f64> =
-            run.tracks().iter().map(|reading| reading.speeds()[zeros.side]).collect();
-        bridge(&times, &mut speeds, &zeros.rows.clone().collect::<Vec<_>>());
-        for row in zeros.rows.clone() {
+            run.tracks().iter().map(|reading| reading.speeds()[equal.side]).collect();
+        bridge(&times, &mut speeds, &equal.rows.clone().collect::<Vec<_>>());
+        for row in equal.rows.clone() {
             let reading = &mut run.readings_mut()[row];
-            match zeros.side {
+            match equal.side {
                 Side::Left => reading.v_left = speeds[row],
                 Side::Right => reading.v_right = speeds[row],
             }
         }
     }
     let is_dropped =
-        |row: &usize| dead.iter().any(|zeros| !is_short(zeros) && zeros.rows.contains(row));
+        |row: &usize| dead.iter().any(|equal| !is_short(equal) && equal.rows.contains(row));
     let kept: Vec<usize> = (0..times.len()).filter(|row| !is_dropped(row)).collect();
     if kept.len() < times.len() {
         run.keep_readings(&kept);

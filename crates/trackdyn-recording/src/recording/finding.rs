@@ -50,14 +50,27 @@ pub enum Finding {
         /// Size of the largest, m/s.
         largest: f64,
     },
-    /// Readings of a side at zero while the poses show that its track moves: a few in a row are
-    /// replaced by the line between their neighbours, more are dropped.
+    /// Readings of a side that stay at zero, or at one speed, while the poses show that its track
+    /// moves otherwise: a few in a row are replaced by the line between their neighbours, more are
+    /// dropped.
     Dead {
         /// The longest time, s.
         longest: f64,
     },
     /// Poses that repeat the one before while the tracks move: they are dropped.
     Frozen {
+        /// The longest time, s.
+        longest: f64,
+    },
+    /// Stamps of poses by a clock that gains on that of the tracks: they are set back.
+    ClockRate {
+        /// What it gains in a second, s.
+        rate: f64,
+        /// What it gains in the run, s.
+        gained: f64,
+    },
+    /// Yaw rates of the IMU that stay the same while the poses turn otherwise: they are dropped.
+    StuckGyroscope {
         /// The longest time, s.
         longest: f64,
     },
@@ -87,6 +100,8 @@ impl Finding {
                 | Self::Repeated
                 | Self::Dead { .. }
                 | Self::Frozen { .. }
+                | Self::ClockRate { .. }
+                | Self::StuckGyroscope { .. }
                 | Self::Saturated { .. }
                 | Self::Biased { .. }
         )
@@ -120,9 +135,18 @@ pub(super) fn gather(cleanings: Vec<Cleaning>) -> Vec<Cleaning> {
             (Finding::Gap { longest: most }, Finding::Gap { longest: other })
             | (Finding::Dead { longest: most }, Finding::Dead { longest: other })
             | (Finding::Frozen { longest: most }, Finding::Frozen { longest: other })
+            | (
+                Finding::StuckGyroscope { longest: most },
+                Finding::StuckGyroscope { longest: other },
+            )
             | (Finding::Saturated { limit: most }, Finding::Saturated { limit: other })
             | (Finding::Spike { largest: most }, Finding::Spike { largest: other }) => {
                 *most = most.max(other);
+            }
+            (Finding::ClockRate { gained: most, .. }, Finding::ClockRate { gained, .. })
+                if gained.abs() > most.abs() =>
+            {
+                *most = gained;
             }
             _ => {}
         }
@@ -153,13 +177,26 @@ impl fmt::Display for Cleaning {
             )?,
             Finding::Dead { longest } => write!(
                 f,
-                "readings of a side at zero, for up to {longest:.3} s, while the poses show that \
-                 its track moves (a dead encoder), bridged where short and else left out"
+                "readings of a side at zero or at one speed, for up to {longest:.3} s, while the \
+                 poses show that its track moves otherwise (a dead encoder), bridged where short \
+                 and else left out"
             )?,
             Finding::Frozen { longest } => write!(
                 f,
                 "rows repeat the one before, for up to {longest:.3} s, while the tracks drive (a \
                  tracker that is stuck, or poses that are sent again), left out"
+            )?,
+            Finding::ClockRate { rate, gained } => write!(
+                f,
+                "stamps by a clock that gains {:.2} ms a second on that of the tracks ({:.2} s in \
+                 the longest run), set back",
+                1e3 * rate,
+                gained
+            )?,
+            Finding::StuckGyroscope { longest } => write!(
+                f,
+                "readings of the gyroscope stay the same, for up to {longest:.3} s, while the \
+                 poses turn otherwise (stuck, or at the end of its range), left out"
             )?,
             Finding::Saturated { limit } => write!(
                 f,

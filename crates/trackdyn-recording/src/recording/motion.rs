@@ -144,7 +144,7 @@ impl Line {
         self.yy += y * y;
     }
 
-    fn correlation(&self) -> f64 {
+    pub(super) fn correlation(&self) -> f64 {
         let scale = (self.xx * self.yy).sqrt();
         if scale > 0.0 { self.xy / scale } else { 0.0 }
     }
@@ -157,14 +157,14 @@ impl Line {
 
 /// The fits at a delay.
 #[derive(Clone, Copy, Debug, Default)]
-struct Fits {
-    turn: Line,
+pub(super) struct Fits {
+    pub(super) turn: Line,
     forward: Line,
-    count: usize,
+    pub(super) count: usize,
 }
 
 impl Fits {
-    fn of(
+    pub(super) fn of(
         runs: &[Run],
         all: &[Vec<Piece>],
         delay: f64,

@@ -5,6 +5,7 @@ use super::finding::Cleaning;
 use super::positions::settle;
 use super::spikes::mend;
 use crate::sample::{ImuSample, PoseSample, Series, TrackSample};
+use trackdyn_core::Pose;
 
 /// The rows of a run as a reader found them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -19,13 +20,41 @@ pub struct UncheckedRun {
     pub imu: Series<ImuSample>,
 }
 
-/// Turns poses from the axes of the sensor to those of the robot, on which it is mounted at a yaw,
-/// rad. Where it is mounted is another matter.
-pub(crate) fn turn_sensor(runs: &mut [UncheckedRun], yaw: Option<f64>) {
-    let Some(yaw) = yaw else { return };
+/// Axes in which poses are told.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PoseAxes {
+    /// Those of ROS (REP-103): y to the left of x, yaw counter-clockwise.
+    #[default]
+    Ros,
+    /// North, east, down, as in aircraft: y to the right of x, yaw clockwise.
+    NorthEastDown,
+}
+
+impl PoseAxes {
+    /// Its name, as the option takes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ros => "ros",
+            Self::NorthEastDown => "ned",
+        }
+    }
+
+    /// A pose in the axes of ROS.
+    pub(crate) fn to_ros(self, pose: Pose) -> Pose {
+        match self {
+            Self::Ros => pose,
+            Self::NorthEastDown => Pose::new(pose.x, -pose.y, -pose.yaw),
+        }
+    }
+}
+
+/// Takes poses of a sensor to those of the robot in the axes of ROS. It is mounted on the robot at
+/// a yaw, rad; where it is mounted is another matter.
+pub(crate) fn turn_sensor(runs: &mut [UncheckedRun], axes: PoseAxes, yaw: Option<f64>) {
     for sample in runs.iter_mut().flat_map(|run| &mut run.poses.samples) {
+        sample.pose = axes.to_ros(sample.pose);
         // world_from_body = world_from_sensor · sensor_from_body
-        sample.pose.yaw -= yaw;
+        sample.pose.yaw -= yaw.unwrap_or_default();
     }
 }
 
@@ -72,6 +101,11 @@ impl Run {
         self.poses = self.poses.part(rows);
     }
 
+    /// Replaces the readings of the IMU by some of them, with the columns beside them.
+    pub(super) fn keep_imu(&mut self, rows: &[usize]) {
+        self.imu = self.imu.part(rows);
+    }
+
     /// Leaves out the readings of the IMU.
     pub(super) fn drop_imu(&mut self) {
         self.imu = Series::default();
@@ -80,6 +114,11 @@ impl Run {
     /// The readings of the tracks, to mend single ones.
     pub(super) fn readings_mut(&mut self) -> &mut [TrackSample] {
         &mut self.tracks.samples
+    }
+
+    /// The poses, to mend their stamps or positions.
+    pub(super) fn poses_mut(&mut self) -> &mut [PoseSample] {
+        &mut self.poses.samples
     }
 
     /// This run with positions as well known as those of the run that it is a part of.

@@ -1,11 +1,15 @@
 //! What was done to a recording on its way in.
 
+use super::Run;
+use super::cleaning::longest_interval;
 use super::finding::Cleaning;
 use crate::doubt::Doubt;
+use crate::sample::ImuSample;
 use std::f64::consts::TAU;
 use std::fmt;
 use std::path::PathBuf;
 use trackdyn_core::lines::counted;
+use trackdyn_core::robust::usual_interval;
 
 /// Something the user should know about a recording that can be used all the same.
 #[derive(Clone, Debug, PartialEq)]
@@ -164,6 +168,13 @@ pub enum Warning {
         /// Turn of the gyroscope per turn of the poses.
         ratio: f64,
     },
+    /// An IMU whose readings cover a part of the poses only.
+    ImuOfAPart {
+        /// Time of the poses that they cover, s.
+        covered: f64,
+        /// Time of all poses, s.
+        of: f64,
+    },
     /// A doubt that the user accepted.
     Accepted(Doubt),
     /// A choice that the reader made.
@@ -173,6 +184,28 @@ pub enum Warning {
         /// What was taken.
         taken: String,
     },
+}
+
+/// Largest share of the poses that an IMU covers where the rest is worth a word.
+const MAX_COVERED: f64 = 0.9;
+
+impl Warning {
+    /// Said of an IMU that covers a part of the poses of these runs; none of one that covers them,
+    /// or where there is none.
+    pub(super) fn imu_of_a_part(runs: &[Run]) -> Option<Self> {
+        let (mut covered, mut of) = (0.0, 0.0);
+        for run in runs {
+            let [first, .., last] = run.poses() else { continue };
+            of += last.t - first.t;
+            let longest = longest_interval(usual_interval(run.imu().iter().map(|one| one.t)));
+            let within = |pair: &[ImuSample]| {
+                let [from, until] = [pair[0].t.max(first.t), pair[1].t.min(last.t)];
+                if pair[1].t - pair[0].t > longest { 0.0 } else { (until - from).max(0.0) }
+            };
+            covered += run.imu().windows(2).map(within).sum::<f64>();
+        }
+        (covered > 0.0 && covered < MAX_COVERED * of).then_some(Self::ImuOfAPart { covered, of })
+    }
 }
 
 impl fmt::Display for Warning {
@@ -259,6 +292,11 @@ impl fmt::Display for Warning {
                 f,
                 "imu: its yaw rates are {ratio:.1} times what the poses show, degrees per second \
                  in place of rad/s: left out (--gyro-unit deg/s reads them)"
+            ),
+            Self::ImuOfAPart { covered, of } => write!(
+                f,
+                "imu: its readings cover {covered:.0} s of the {of:.0} s of the poses: the rest has \
+                 no gyroscope"
             ),
             Self::Accepted(doubt) => {
                 write!(f, "{doubt}; read all the same (--accept {})", doubt.kind().name())

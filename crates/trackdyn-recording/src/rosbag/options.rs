@@ -2,6 +2,7 @@
 
 use super::topic::STATIC;
 use crate::doubt::DoubtKind;
+use crate::recording::PoseAxes;
 use crate::table_options::TableOptions;
 use crate::unit::SpeedUnit;
 use std::path::PathBuf;
@@ -54,6 +55,8 @@ pub struct RosbagOptions {
     pub msg_dir: Option<PathBuf>,
     /// What dates the messages.
     pub dated_by: Dating,
+    /// Axes in which the poses are told.
+    pub pose_axes: PoseAxes,
     /// Yaw of the x axis of the pose sensor on the robot, rad: π where it faces backwards.
     pub mount_yaw: Option<f64>,
     /// Whether the yaw rates of the IMU are in degrees per second.
@@ -73,6 +76,7 @@ impl RosbagOptions {
         TableOptions {
             speed_unit: self.speed_unit,
             wheel_radius: self.wheel_radius,
+            pose_axes: self.pose_axes,
             mount_yaw: self.mount_yaw,
             gyro_in_degrees: self.gyro_in_degrees,
             accepted: self.accepted.clone(),

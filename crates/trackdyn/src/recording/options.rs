@@ -3,8 +3,8 @@
 use super::BagOptions;
 use crate::Error;
 use std::path::{Path, PathBuf};
-use trackdyn_recording::Columns;
 use trackdyn_recording::rosbag::{Dating, JointSignal};
+use trackdyn_recording::{Columns, PoseAxes};
 
 /// How a recording is read. By default a bag is read by what it leaves no choice in.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -26,6 +26,7 @@ impl ReadOptions {
             ("columns", self.columns.is_some()),
             ("speed_unit", bag.speed_unit.is_some()),
             ("wheel_radius", bag.wheel_radius.is_some()),
+            ("pose_axes", bag.pose_axes != PoseAxes::Ros),
             ("mount_yaw", bag.mount_yaw.is_some()),
             ("gyro_unit", bag.gyro_in_degrees),
             ("accepted", !bag.accepted.is_empty()),

@@ -3,7 +3,7 @@
 use super::{Collector, PoseKey, push};
 use crate::Error;
 use crate::attitude::Attitude;
-use crate::recording::Warning;
+use crate::recording::{PoseAxes, Warning};
 use crate::rosbag::clock::{Clock, decide};
 use crate::rosbag::date::Received;
 use crate::rosbag::fixes::{self, Fix, Yaw};
@@ -13,6 +13,7 @@ use crate::rosbag::payload::{Payload, PayloadError};
 use crate::rosbag::topic::{Layout, Topic, list};
 use crate::rosbag::{path, twist};
 use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
 /// Fewest changes of a pose of second choice that is no goal: fewer make no recording.
@@ -213,15 +214,27 @@ fn located(
     let clocks = [Clock::of(topic, fixes), Clock::of(imu, yaws)];
     let (by, told) = decide(&clocks, options.dated_by);
     warnings.extend(told);
-    let mut known: Vec<(i64, f64)> =
-        yaws.iter().filter_map(|yaw| Some((clocks[1].date(by, yaw)?, yaw.value))).collect();
+    // Positions stand in metres east and north. With axes north and east, yaw counts from north
+    // towards east.
+    let is_ned = options.pose_axes == PoseAxes::NorthEastDown;
+    let from_east = |yaw: f64| if is_ned { FRAC_PI_2 - yaw } else { yaw };
+    let mut known: Vec<(i64, f64)> = yaws
+        .iter()
+        .filter_map(|yaw| Some((clocks[1].date(by, yaw)?, from_east(yaw.value))))
+        .collect();
     known.sort_by_key(|(time, _)| *time);
     let mut dated: Vec<(i64, Fix)> =
         fixes.iter().filter_map(|fix| Some((clocks[0].date(by, fix)?, *fix))).collect();
     dated.sort_by_key(|(time, _)| *time);
     let mount = options.mount_yaw.unwrap_or_default();
-    let (poses, left_out) = fixes::poses(&dated, &known, mount)
+    let (mut poses, left_out) = fixes::poses(&dated, &known, mount)
         .map_err(|problem| format!("{positions}; {imu}: {problem}"))?;
+    if is_ned {
+        for pose in &mut poses {
+            let [east, north, yaw] = pose.value;
+            pose.value = [north, east, FRAC_PI_2 - yaw];
+        }
+    }
     if left_out > 0 {
         let (topic, reason) = (topic.to_owned(), format!("{imu} has no yaw at its time"));
         warnings.push(Warning::MessagesSkipped { topic, count: left_out, reason });

@@ -169,6 +169,9 @@ const UPHILL: f64 = 1.0;
 /// Smallest share of the pose intervals that a far offset may use.
 const MIN_SHARE: f64 = 0.3;
 
+/// Largest standard error of an offset that is known, s: as far as offsets usually are.
+const MAX_ERROR: f64 = 0.5;
+
 /// An offset of a search with the fit there.
 #[derive(Clone, Copy)]
 struct Peak {
@@ -319,6 +322,12 @@ pub fn clock_offset(recording: &Recording, search: &ClockSearch) -> Result<Clock
         return Err(refuse(format!("the correlation has no clear peak around {coarse:.2} s")));
     };
     let Estimate { gain, standard_error } = moments.estimate(tau);
+    let is_known = standard_error < MAX_ERROR;
+    if !is_known {
+        return Err(refuse(format!(
+            "turning changes too rarely: {tau:.2} s would be open by more than {MAX_ERROR} s"
+        )));
+    }
     Ok(ClockOffset {
         tau,
         standard_error,

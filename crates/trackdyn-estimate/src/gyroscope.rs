@@ -36,6 +36,9 @@ use turned::Turned;
 /// Fewest poses beside readings of the gyroscope.
 const MIN_POSES: usize = 60;
 
+/// Least share of the poses that have readings around them: weights are those of one kind of poses.
+const MIN_SHARE: f64 = 0.9;
+
 /// Fewest poses in a row that are smoothed.
 const MIN_ROW: usize = 8;
 
@@ -91,6 +94,17 @@ pub enum Unfit {
         /// Those that have.
         found: usize,
     },
+    /// Many poses have no readings around them.
+    #[error(
+        "{found} of {of} poses have readings of the gyroscope around them: take the part that has \
+         (--time)"
+    )]
+    OfAPart {
+        /// Those that have.
+        found: usize,
+        /// All.
+        of: usize,
+    },
     /// It is no better than the poses.
     #[error(
         "it is no better than the poses: a turn within 1 s is known to {:.2} deg with it, {:.2} \
@@ -139,6 +153,10 @@ fn corrected(drive: &Drive, fit: &Fit) -> Result<(Recording, Gyroscope), Unfit> 
     let found: usize = rows.iter().map(|row| row.poses.len()).sum();
     if found < MIN_POSES {
         return Err(Unfit::TooFewPoses { found });
+    }
+    let of = drive.recording.runs().iter().map(|run| run.poses().len()).sum();
+    if real(found) < MIN_SHARE * real(of) {
+        return Err(Unfit::OfAPart { found, of });
     }
     if fit.scale < SCALES[0] || fit.scale > SCALES[1] {
         return Err(Unfit::Scale { scale: fit.scale });

@@ -9,8 +9,8 @@ use trackdyn_estimate::identification::{Options, icrs_alone};
 use trackdyn_estimate::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
 use trackdyn_recording::recording::Finding;
 use trackdyn_recording::{
-    Doubt, DoubtKind, Error, Format, ImuSample, Recording, Run, Source, SpeedUnit, TableOptions,
-    UncheckedRun, Warning, folder,
+    Doubt, DoubtKind, Error, Format, ImuSample, PoseAxes, Recording, Run, Source, SpeedUnit,
+    TableOptions, UncheckedRun, Warning, folder,
 };
 
 /// Drives of half a minute, with the noise of encoders and poses.
@@ -419,6 +419,33 @@ fn a_sensor_that_is_turned_by_the_option_is_right() {
     for (found, expected) in found.iter().zip(expected) {
         let off = trackdyn_core::pose::wrap_angle(found.pose.yaw - expected.pose.yaw);
         assert!(off.abs() < 1e-9, "{off}");
+    }
+}
+
+/// North, east, down: y points right, and yaw counts clockwise.
+#[test]
+fn poses_that_count_clockwise_are_named_and_read_by_the_option() {
+    let mirrored = change(rows(), |run| {
+        for sample in &mut run.poses.samples {
+            sample.pose.y = -sample.pose.y;
+            sample.pose.yaw = -sample.pose.yaw;
+        }
+    });
+    let (doubt, text) = refused(mirrored.clone());
+    assert_eq!(doubt, Doubt::Swapped);
+    assert!(text.contains("--pose-axes ned"), "{text}");
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let source = Source::computed();
+    let recording = Recording::new("log", "robot", mirrored, source, Vec::new()).expect("usable");
+    folder::write(&recording, place.path()).expect("written");
+    let options = TableOptions { pose_axes: PoseAxes::NorthEastDown, ..TableOptions::default() };
+    let read_so = folder::read_by(place.path(), &options).expect("right");
+    let truth = read(rows()).expect("right");
+    for (found, expected) in read_so.runs().iter().zip(truth.runs()) {
+        for (found, expected) in found.poses().iter().zip(expected.poses()) {
+            let off = expected.pose.relative(&found.pose);
+            assert!(off.x.abs().max(off.y.abs()).max(off.yaw.abs()) < 1e-9, "{off:?}");
+        }
     }
 }
 

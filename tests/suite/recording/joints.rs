@@ -4,7 +4,7 @@
 use super::drives::{Bag, RADIUS, angles, at, ns, poses, quaternion, speeds, times};
 use trackdyn_core::PerSide;
 use trackdyn_recording::rosbag::{self, JointSignal, RosbagOptions};
-use trackdyn_recording::{Doubt, DoubtKind, Error, Recording, SpeedUnit};
+use trackdyn_recording::{Doubt, DoubtKind, Error, PoseAxes, Recording, SpeedUnit};
 
 const TOPIC: &str = "/joint_states";
 
@@ -301,6 +301,29 @@ fn sides_that_count_backwards_or_are_swapped_are_refused_with_the_options_that_h
         let is_told = text.contains(&of_right) || text.contains(&format!("--left-joint {left}"));
         assert!(is_told, "{text}");
         assert_speeds(&read_by(bag(), &named).expect(what), 3000, 0.0, 1e-12);
+    }
+}
+
+/// Names tell the sides, so it is the poses that are mirrored.
+#[test]
+fn poses_that_count_clockwise_beside_named_joints_do_not_swap_them() {
+    let mirrored = || {
+        let mut bag = Bag::default().with_wheels();
+        for (t, pose) in poses() {
+            bag.pose(at(t), [pose.x, -pose.y], quaternion(-pose.yaw));
+        }
+        bag
+    };
+    let error = read_by(mirrored(), &options()).expect_err("mirrored");
+    let text = error.to_string();
+    assert!(text.contains("tell left from right") && text.contains("--pose-axes ned"), "{text}");
+    assert!(matches!(error, Error::Contradiction { joints: None, .. }), "{text}");
+    let ned = RosbagOptions { pose_axes: PoseAxes::NorthEastDown, ..options() };
+    let found = read_by(mirrored(), &ned).expect("right");
+    let truth = read(Bag::default().with_wheels().with_poses());
+    for (found, expected) in found.runs()[0].poses().iter().zip(truth.runs()[0].poses()) {
+        let off = expected.pose.relative(&found.pose);
+        assert!(off.x.abs().max(off.y.abs()).max(off.yaw.abs()) < 1e-6, "{off:?}");
     }
 }
 

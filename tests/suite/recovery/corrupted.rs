@@ -22,20 +22,25 @@ enum Fault {
     Flip,
     /// Half a second of zeros.
     Dead,
+    /// Three seconds at the speed before.
+    Stuck,
 }
 
 impl Fault {
+    /// Those that may come in any number.
     const ALL: [Self; 4] = [Self::Spike, Self::Restart, Self::Flip, Self::Dead];
 
     /// How many readings it spoils.
     fn length(self) -> usize {
         match self {
             Self::Dead => 16,
+            Self::Stuck => 100,
             Self::Spike | Self::Restart | Self::Flip => 1,
         }
     }
 
     fn apply(self, readings: &mut [TrackSample], side: usize, random: &mut ChaCha8Rng) {
+        let first = readings[0].speeds();
         for reading in readings {
             let speed = if side == 0 { &mut reading.v_left } else { &mut reading.v_right };
             let sign = if random.random_bool(0.5) { 1.0 } else { -1.0 };
@@ -44,6 +49,8 @@ impl Fault {
                 Self::Restart => sign * 0.1 * random.random_range(20.0..4000.0) / 0.03,
                 Self::Flip => -*speed,
                 Self::Dead => 0.0,
+                Self::Stuck if side == 0 => first.left,
+                Self::Stuck => first.right,
             };
         }
     }
@@ -115,6 +122,14 @@ fn single_bad_readings_move_the_distance_by_less_than_its_standard_error() {
 fn dead_stretches_move_the_distance_by_less_than_its_standard_error() {
     let [largest, mean] = moved(&Fault::ALL, 500);
     println!("all: largest {largest:.2}, mean {mean:.2} standard errors");
+    assert!(largest < 1.0 && mean < 0.2, "{largest} {mean}");
+}
+
+/// An encoder that shows its last speed for three seconds.
+#[test]
+fn stuck_stretches_move_the_distance_by_less_than_its_standard_error() {
+    let [largest, mean] = moved(&[Fault::Stuck], 100);
+    println!("stuck: largest {largest:.2}, mean {mean:.2} standard errors");
     assert!(largest < 1.0 && mean < 0.2, "{largest} {mean}");
 }
 

@@ -4,15 +4,16 @@
 //! # Law
 //! Three or more zeros of a side in a row are in question where the speed falls to them at once
 //! and comes back to as much in the same direction, more than a third of the usual one; where they
-//! last for long, one of both is enough. Another speed is in question where the readings of the
-//! side hardly ever repeat, as those of commands or of coarse encoders do, and where it jumps by
-//! that much at the end, or lasts for long.
+//! last for long, one of both is enough. Another speed is in question where it jumps by that much
+//! at the end; where the readings of the side hardly ever repeat, as those of commands or of coarse
+//! encoders do, also where it lasts for long.
 //!
 //! What the track ran then is told twice by the other side: by the turn of the poses, and by their
 //! way forward. The encoder was dead where both agree on a way that is off by more than a third of
 //! the usual speed, in the second half of the time as well: where the readings are commands, a
 //! track rolls out and stands. A robot that stops stands by its poses as well; on ice it slides on
-//! for a while, which is why a speed has to come back.
+//! for a while, which is why a speed has to come back. Commands of a robot that slides stay the same
+//! all the time: a speed that is not zero counts only where it is rarely wrong.
 //!
 //! A few readings are replaced by the line between those beside them; more are dropped, which
 //! leaves a gap: nobody knows what the track did within.
@@ -31,8 +32,11 @@ use trackdyn_core::{PerSide, Side, real};
 const MIN_EQUAL: usize = 3;
 
 /// Largest share of the readings of a side that repeat the one before and are not zero, where a
-/// speed that stays the same is in question.
+/// speed that stays the same is in question without a jump.
 const MAX_REPEATED: f64 = 0.1;
+
+/// Largest share of the readings of a side that show the last speed of a dead encoder.
+const MAX_STUCK: f64 = 0.05;
 
 /// Share of the usual speed that a track has to have had.
 const MIN_SHARE: f64 = 1.0 / 3.0;
@@ -55,6 +59,8 @@ struct Equal {
     run: usize,
     side: Side,
     rows: Range<usize>,
+    /// What they show, m/s.
+    shown: f64,
     /// Stamps of the first and of the reading after the last, s.
     time: [f64; 2],
 }
@@ -76,7 +82,15 @@ pub(super) fn leave_out(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
     };
     let Some(following) = Following::of(runs, &meets) else { return };
     let is_dead = |equal: &Equal| moved(&runs[equal.run], equal, &following, usual[equal.side]);
-    let dead: Vec<Equal> = questioned.iter().filter(|equal| is_dead(equal)).cloned().collect();
+    let mut dead: Vec<Equal> = questioned.iter().filter(|equal| is_dead(equal)).cloned().collect();
+    let readings: usize = runs.iter().map(|run| run.tracks().len()).sum();
+    for side in Side::BOTH {
+        let is_stuck = |equal: &Equal| equal.side == side && equal.shown != 0.0;
+        let stuck = dead.iter().filter(|equal| is_stuck(equal)).map(|equal| equal.rows.len());
+        if real(stuck.sum()) > MAX_STUCK * real(readings) {
+            dead.retain(|equal| !is_stuck(equal));
+        }
+    }
     for (index, run) in runs.iter_mut().enumerate() {
         let of_run: Vec<&Equal> = dead.iter().filter(|equal| equal.run == index).collect();
         let Some(first) = of_run.first() else { continue };
@@ -129,7 +143,7 @@ fn equals(index: usize, run: &Run, side: Side, usual: f64) -> Vec<Equal> {
         let rows = end..end + equal.len();
         end = rows.end;
         let shown = speed(rows.start);
-        if rows.len() < MIN_EQUAL || shown != 0.0 && repeats {
+        if rows.len() < MIN_EQUAL {
             continue;
         }
         let beside = [rows.start.checked_sub(1), Some(end).filter(|end| *end < tracks.len())];
@@ -138,7 +152,7 @@ fn equals(index: usize, run: &Run, side: Side, usual: f64) -> Vec<Equal> {
         let time = [tracks[rows.start].t, tracks[last].t];
         let is_long = time[1] - time[0] >= MIN_LONG;
         let is_questioned = if shown != 0.0 {
-            is_long || after.is_some_and(|after| is_fast(after - shown))
+            is_long && !repeats || after.is_some_and(|after| is_fast(after - shown))
         } else {
             match [before, after] {
                 [None, None] => is_long,
@@ -147,7 +161,7 @@ fn equals(index: usize, run: &Run, side: Side, usual: f64) -> Vec<Equal> {
             }
         };
         if is_questioned {
-            found.push(Equal { run: index, side, rows, time });
+            found.push(Equal { run: index, side, rows, shown, time });
         }
     }
     found

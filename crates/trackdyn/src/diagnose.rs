@@ -18,6 +18,7 @@ use crate::{
 };
 use std::path::{Path, PathBuf};
 use trackdyn_diagnose::{DiagnosisFile, Evidence, Options, Resampling, Status};
+use trackdyn_estimate::Contradiction;
 use trackdyn_model::kinematics::Source;
 use trackdyn_model::{EffectId, VehicleFile};
 use trackdyn_recording::RunList;
@@ -64,6 +65,7 @@ pub fn diagnose(
 /// A diagnosis whose inputs and settings go together: what was seen, and what is held out of it.
 pub struct Prepared {
     evidence: Evidence,
+    contradictions: Vec<Contradiction>,
     options: Options,
     vehicle: Vehicle,
     name: String,
@@ -88,9 +90,25 @@ impl Prepared {
     /// [`Error::NoRecording`]; [`Error::RecordingTwice`], for runs count as evidence of their own;
     /// [`Error::PointsNotAlone`]; [`Error::HeldOut`] for runs that are not there,
     /// [`Error::AllHeldOut`], [`Error::NoRunsToHoldOut`] for runs of a table;
-    /// [`Error::NoPositions`]; [`Error::Diagnose`] for too little driving, or noise that is not
-    /// known.
+    /// [`Error::NoPositions`]; [`Error::NoReference`] for poses that are computed from the tracks;
+    /// [`Error::Diagnose`] for too little driving, or noise that is not known.
     pub fn new(
+        recordings: &[Recording],
+        vehicle: &Vehicle,
+        settings: &DiagnoseSettings,
+    ) -> Result<Self, Error> {
+        let prepared = Self::of_any(recordings, vehicle, settings)?;
+        let found = recordings.iter().map(|one| one.expect_reference(vehicle, None));
+        let contradictions = found.collect::<Result<Vec<_>, _>>()?.concat();
+        Ok(Self { contradictions, ..prepared })
+    }
+
+    /// As [`Prepared::new`], of poses that may be computed from the tracks: so a simulator without
+    /// slip moves its robot.
+    ///
+    /// # Errors
+    /// The other ones of [`Prepared::new`].
+    pub(crate) fn of_any(
         recordings: &[Recording],
         vehicle: &Vehicle,
         settings: &DiagnoseSettings,
@@ -121,6 +139,7 @@ impl Prepared {
             poses: of_poses(&recording),
             joined: joined.iter().filter_map(of_poses).collect(),
             evidence,
+            contradictions: Vec::new(),
             options: Options {
                 held_out,
                 resampling: settings.resampling,
@@ -139,6 +158,12 @@ impl Prepared {
     /// What was seen.
     pub fn evidence(&self) -> &Evidence {
         &self.evidence
+    }
+
+    /// What contradicts itself in the recordings, as
+    /// [`Recording::contradictions`](crate::Recording::contradictions) finds it.
+    pub fn contradictions(&self) -> &[Contradiction] {
+        &self.contradictions
     }
 
     /// Indices of the runs that are held out.

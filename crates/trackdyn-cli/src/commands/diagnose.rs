@@ -64,7 +64,7 @@ pub fn run(options: &Options) -> Outcome {
         laws: Vec::new(),
     };
     let prepared = Prepared::new(&recordings, &vehicle, &settings)?;
-    for contradiction in recordings.iter().flat_map(|one| one.contradictions(&vehicle, None)) {
+    for contradiction in prepared.contradictions() {
         warn(format_args!("{contradiction}"));
     }
     say_gyroscopes(prepared.evidence().gyroscope());

@@ -20,7 +20,7 @@ use trackdyn::{Effects, Pose, Stage};
 /// Headings of groups of options in helps.
 const PLACE: &str = "Place and time";
 const READING: &str = "How the recording is read";
-const PART: &str = "What of the recording counts";
+pub const PART: &str = "What of the recording counts";
 const VEHICLE: &str = "Vehicle";
 
 /// Where the robot stands.
@@ -381,7 +381,7 @@ fn time(text: &str) -> Result<[f64; 2], String> {
 ///
 /// # Errors
 /// What was expected.
-fn seconds(text: &str) -> Result<f64, String> {
+pub fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.abs() <= 3600.0 => Ok(value),
         _ => Err("expected a number of seconds, such as 0.25, within an hour".to_owned()),

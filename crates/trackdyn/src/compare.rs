@@ -75,6 +75,7 @@ impl Prepared {
         }
         let of_set = |held_out: &HeldOut| DiagnoseSettings {
             held_out: held_out.clone(),
+            tau: None,
             gyroscope: settings.gyroscope,
             resampling: settings.resampling,
             method: settings.method.clone(),

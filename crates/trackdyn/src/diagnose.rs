@@ -38,6 +38,8 @@ const OF_DRIVES: [&str; 2] = ["time.png", "path.png"];
 pub struct DiagnoseSettings {
     /// Runs that nothing is fitted or chosen on: the result is judged on them.
     pub held_out: HeldOut,
+    /// Time by which poses lag behind the track speeds, s. Default: estimated.
+    pub tau: Option<f64>,
     /// Correct the yaw of the poses by the gyroscope of the recordings. Default: poses as they are.
     pub gyroscope: bool,
     /// Draws and seed of the bootstrap behind the tests. Default: 2000 draws, seed 1.
@@ -98,7 +100,7 @@ impl Prepared {
         settings: &DiagnoseSettings,
     ) -> Result<Self, Error> {
         let prepared = Self::of_any(recordings, vehicle, settings)?;
-        let found = recordings.iter().map(|one| one.expect_reference(vehicle, None));
+        let found = recordings.iter().map(|one| one.expect_reference(vehicle, settings.tau));
         let contradictions = found.collect::<Result<Vec<_>, _>>()?.concat();
         Ok(Self { contradictions, ..prepared })
     }
@@ -127,7 +129,8 @@ impl Prepared {
                 let motion = recording.expect_positions()?;
                 let held_out = settings.held_out.of_motion(motion)?;
                 let (gauge, by_gyroscope) = (vehicle.gauge(), settings.gyroscope);
-                let evidence = Evidence::of_drive(motion, gauge, &settings.method, by_gyroscope);
+                let evidence =
+                    Evidence::of_drive(motion, gauge, &settings.method, by_gyroscope, settings.tau);
                 let evidence = evidence.map_err(named)?;
                 (evidence, held_out, Some(motion.run_list().to_string()))
             }

@@ -70,8 +70,8 @@ struct Replayed {
 /// the forces on the vehicle, where there is one.
 ///
 /// # Errors
-/// [`Error::NoMotion`] for a table of steady operating points, [`Error::NoReference`] for poses that
-/// are computed from the tracks, [`Error::TooLarge`] for parameters that no robot has,
+/// [`Error::NoMotion`] for a table of steady operating points, [`Error::NoReference`] for poses
+/// that are computed from the tracks, [`Error::TooLarge`] for parameters that no robot has,
 /// [`Error::Runs`], [`Error::Time`], [`Error::Odometry`], [`Error::Law`].
 pub fn odometry(
     recording: &Recording,

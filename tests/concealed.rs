@@ -179,7 +179,7 @@ pub fn diagnosed_by_gyroscope(
     file: &VehicleFile,
 ) -> Result<Diagnosis, Error> {
     let settings = Settings::default();
-    of_evidence(&Evidence::of_drive(recording, file.vehicle.gauge, &settings, true)?, file)
+    of_evidence(&Evidence::of_drive(recording, file.vehicle.gauge, &settings, true, None)?, file)
 }
 
 fn of_evidence(evidence: &Evidence, file: &VehicleFile) -> Result<Diagnosis, Error> {

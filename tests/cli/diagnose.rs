@@ -228,6 +228,10 @@ fn bad_input_is_refused_and_leaves_nothing() {
             format!("diagnose points.csv --runs 1 --time 0,5 --vehicle {VEHICLE}"),
             "--runs, --time: points.csv holds steady points",
         ),
+        (
+            format!("diagnose points.csv --tau 0.1 --vehicle {VEHICLE}"),
+            "--tau: points.csv holds steady points",
+        ),
         (format!("diagnose drive --runs 99 --vehicle {VEHICLE}"), "--runs: run 99 is not in"),
         (format!("diagnose drive drive --vehicle {VEHICLE}"), "each recording once"),
         (

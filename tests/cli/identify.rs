@@ -182,6 +182,24 @@ fn record_yaw_alone(place: &Workplace, schedules: Vec<Vec<Stretch>>) {
     place.write("rec/poses.csv", &("t,x,y,yaw\n".to_owned() + &bare.collect::<String>()));
 }
 
+/// What an earlier identification wrote does not stay beside the file of another recording.
+#[test]
+fn no_document_of_another_recording_stays() {
+    let place = Workplace::new();
+    record(&place, vec![random_steps(40, 2.0, 0.8, 1)]);
+    let identify = format!("identify rec --vehicle {} --generations 1", vehicle());
+    assert_eq!(place.run(&identify).status, 0);
+    assert!(place.path().join("out/identification.toml").exists());
+    record_yaw_alone(&place, vec![random_steps(40, 2.0, 0.8, 2)]);
+    let run = place.run(&identify);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(place.path().join("out/kinematics.toml").exists());
+    for name in ["identification.toml", "kinematics_alpha.toml"] {
+        assert!(run.stderr.contains(&format!("removed out/{name}")), "{}", run.stderr);
+        assert!(!place.path().join(format!("out/{name}")).exists());
+    }
+}
+
 /// ICRs between the tracks are contradicted once, with all that makes track speeds.
 #[test]
 fn a_distance_that_no_friction_makes_is_told_once() {

@@ -104,6 +104,14 @@ fn what_is_missing_is_told_with_what_to_drive() {
     ] {
         assert!(text.split_whitespace().collect::<Vec<_>>().join(" ").contains(part), "{text}");
     }
+    // no turn, which diagnose asks for as identify does
+    let straight = |k: u32| Stretch {
+        duration: 4.0,
+        speeds: trackdyn_core::PerSide::new(0.3, 0.3).map(|speed| speed + 0.02 * f64::from(k % 5)),
+    };
+    write(&place, "straight", &recording(vec![(0..15).map(straight).collect()]), |_| ());
+    let run = place.run("inspect straight");
+    assert!(run.stdout.contains("  diagnose  no: the robot hardly turns"), "{}", run.stdout);
     // yaw alone
     write(&place, "yaw", &recording(vec![random_steps(30, 2.0, 0.8, 1)]), |rows| {
         for sample in &mut rows.poses.samples {

@@ -27,7 +27,7 @@ pub fn say_removed(changes: &[Change]) {
 pub fn say_undetermined(changes: &[Change]) {
     for path in removed(changes) {
         let path = path.display();
-        say(format_args!("removed {path}, of an earlier run: this one determines none"));
+        say(format_args!("removed {path}, of an earlier run: this one has none"));
     }
 }
 

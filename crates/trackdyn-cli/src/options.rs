@@ -20,7 +20,7 @@ use trackdyn::{Effects, Pose, Stage};
 /// Headings of groups of options in helps.
 const PLACE: &str = "Place and time";
 const READING: &str = "How the recording is read";
-const PART: &str = "What of the recording counts";
+pub const PART: &str = "What of the recording counts";
 const VEHICLE: &str = "Vehicle";
 
 /// Where the robot stands.
@@ -103,8 +103,9 @@ pub struct RecordingOptions {
     /// and a `-` before a sign that is wrong, such as
     /// t=Time:ms,v_l=left:rpm,v_r=-right:rpm,x=px:mm,y=py:mm,yaw=heading:deg. Units: s, ms, us, ns,
     /// min, h, d; those of --speed-unit; m, cm, mm, km, ft; rad, deg, compass (clockwise from
-    /// north, x east); rad/s, deg/s. qx, qy, qz, qw may stand for yaw; gyro_z is the yaw rate of a
-    /// gyroscope, beside poses or in their place; run parts the table into runs
+    /// north, x east); rad/s, deg/s. qx, qy, qz, qw may stand for yaw, and yaw may stand without x
+    /// and y; gyro_z is the yaw rate of a gyroscope, beside poses or in their place; run parts the
+    /// table into runs
     #[arg(long, value_name = "KEY=COLUMN,...")]
     columns: Option<Columns>,
     /// Bag: topic of the joint states
@@ -396,7 +397,7 @@ fn time(text: &str) -> Result<[f64; 2], String> {
 ///
 /// # Errors
 /// What was expected.
-fn seconds(text: &str) -> Result<f64, String> {
+pub fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.abs() <= 3600.0 => Ok(value),
         _ => Err("expected a number of seconds, such as 0.25, within an hour".to_owned()),

@@ -145,7 +145,7 @@ impl Evidence {
         &self.description
     }
 
-    /// Clock offset of the poses against the encoders, estimated from the recording, s.
+    /// Clock offset of the poses against the encoders, as given or estimated from the recording, s.
     pub fn tau(&self) -> f64 {
         self.tau
     }

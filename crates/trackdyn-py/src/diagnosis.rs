@@ -30,6 +30,7 @@ pub struct Keywords {
     held_out: Option<String>,
     draws: usize,
     seed: u64,
+    tau: Option<f64>,
     gyroscope: bool,
     /// The text of a settings file, and the name that errors mention it by.
     settings: Option<(String, String)>,
@@ -54,6 +55,7 @@ impl Keywords {
         });
         Ok(DiagnoseSettings {
             held_out,
+            tau: self.tau,
             gyroscope: self.gyroscope,
             resampling: Resampling { draws: self.draws, seed: self.seed },
             method: method.transpose()?.unwrap_or_default(),

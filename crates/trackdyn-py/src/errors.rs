@@ -25,6 +25,7 @@ fn class(error: &Error) -> &'static str {
         | Error::MotionOnly { .. }
         | Error::NoMotion { .. }
         | Error::NoPositions { .. }
+        | Error::NoReference { .. }
         | Error::Runs(_)
         | Error::Time(_)
         | Error::NoRecording

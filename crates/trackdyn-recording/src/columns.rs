@@ -54,6 +54,9 @@ const KEYS: [(&str, Key); 14] = [
     ("run", Key::Run),
 ];
 
+/// What poses are told by.
+const POSE: [Key; 7] = [Key::X, Key::Y, Key::Yaw, Key::Qx, Key::Qy, Key::Qz, Key::Qw];
+
 /// Units of times in s, of lengths in m, of angles in rad, and of yaw rates in rad/s.
 const TIMES: [(&str, f64); 7] = [
     ("s", 1.0),
@@ -128,6 +131,13 @@ impl fmt::Display for Columns {
     }
 }
 
+impl Columns {
+    /// Whether they hold poses, be it a yaw alone.
+    fn has_poses(&self) -> bool {
+        POSE.iter().any(|key| self.columns.contains_key(key))
+    }
+}
+
 impl FromStr for Columns {
     type Err = String;
 
@@ -150,12 +160,19 @@ impl FromStr for Columns {
         }
         let has = |key: Key| columns.contains_key(&key);
         let missing = |keys: &[Key]| keys.iter().copied().find(|key| !has(*key));
-        let of_pose = [Key::X, Key::Y, Key::Yaw, Key::Qx, Key::Qy, Key::Qz, Key::Qw];
-        let has_poses = !has(Key::Gyro) || of_pose.into_iter().any(has);
-        let needed: &[Key] = if has_poses { &[Key::X, Key::Y] } else { &[] };
+        let has_poses = POSE.into_iter().any(has);
+        let has_positions = has(Key::X) || has(Key::Y);
+        let needed: &[Key] = if has_positions { &[Key::X, Key::Y] } else { &[] };
         let needed = [&[Key::Time, Key::Left, Key::Right], needed].concat();
         if let Some(key) = missing(&needed) {
             return Err(format!("{0} is missing: expected {0}=COLUMN", key.name()));
+        }
+        if !has_poses && !has(Key::Gyro) {
+            return Err(
+                "no pose and no yaw: expected x=COLUMN, y=COLUMN and yaw=COLUMN, or yaw or \
+                        gyro_z alone, which tell the distance of the ICRs"
+                    .into(),
+            );
         }
         if has_poses && has(Key::Yaw) == missing(&[Key::Qz, Key::Qw]).is_none() {
             return Err("expected yaw=COLUMN, or qz=COLUMN and qw=COLUMN of a quaternion".into());
@@ -233,7 +250,9 @@ mod tests {
             ("t=a,v_l=b,v_r=c,x=d,y=e", "expected yaw=COLUMN, or qz=COLUMN"),
             ("t=a,v_l=b,x=d,y=e,yaw=f", "v_r is missing"),
             ("t=a,v_l=b,v_left=c,v_r=d,x=d,y=e,yaw=f", "v_l stands there twice"),
-            ("t=a,v_l=b,v_r=c", "x is missing"),
+            ("t=a,v_l=b,v_r=c", "expected x=COLUMN, y=COLUMN and yaw=COLUMN, or yaw or gyro_z"),
+            ("t=a,v_l=b,v_r=c,y=d,yaw=e", "x is missing"),
+            ("t=a,v_l=b,v_r=c,qz=d", "expected yaw=COLUMN, or qz=COLUMN"),
             ("t=a,v_l=b,v_r=c,x=d,gyro_z=e", "y is missing"),
             ("time=a", "expected KEY=COLUMN"),
             ("t=", "expected KEY=COLUMN"),

@@ -5,7 +5,7 @@
 //! all of them into runs. Further columns are kept. Where a CSV file is not there, a Parquet file
 //! of the same columns may be (`tracks.parquet`; needs the feature `parquet`).
 
-use crate::recording::{Recording, Source, UncheckedRun, Warning, turn_by_gyroscope};
+use crate::recording::{Recording, Source, UncheckedRun, Warning, divide, turn_by_gyroscope};
 use crate::sample::{Sample, Series, TrackSample};
 use crate::{Error, Format, TableOptions};
 use std::collections::BTreeMap;
@@ -60,9 +60,9 @@ pub fn read_by(folder: &Path, options: &TableOptions) -> Result<Recording, Error
     }
     let source =
         Source { format: Format::Folder, path: Some(folder.to_owned()), ..Source::computed() };
-    let mut runs: Vec<UncheckedRun> = runs.into_values().collect();
-    options.apply(folder, &mut runs)?;
     let mut warnings = Vec::new();
+    let mut runs = divide(runs.into_values().collect(), &mut warnings);
+    options.apply(folder, &mut runs)?;
     if by_gyroscope {
         runs.iter_mut().for_each(turn_by_gyroscope);
         let taken = format!("the yaw of the gyroscope in {}, without positions", imu.display());

@@ -22,6 +22,7 @@ mod motion;
 mod positions;
 mod run;
 mod saturated;
+mod set_back;
 mod source;
 mod spikes;
 mod stretches;
@@ -37,6 +38,7 @@ pub(crate) use headings::{headings, turn_by_gyroscope};
 pub use kept::Kept;
 pub(crate) use run::turn_sensor;
 pub use run::{PoseAxes, Run, UncheckedRun};
+pub(crate) use set_back::divide;
 pub use source::{BagNames, Format, Source};
 pub use warning::Warning;
 

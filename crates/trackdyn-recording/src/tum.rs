@@ -6,7 +6,7 @@
 
 use crate::attitude::Attitude;
 use crate::doubt::{Axes, Doubt, DoubtKind};
-use crate::recording::{Recording, Source, UncheckedRun, Warning};
+use crate::recording::{Recording, Source, UncheckedRun, Warning, divide};
 use crate::rosbag::yaw_of_quaternion;
 use crate::sample::{PoseSample, Series};
 use crate::table::{MAX_ROW_SIZE, MAX_ROWS, number, out_of_bounds, unreadable};
@@ -42,12 +42,12 @@ pub fn read_by(
         return Err(Error::contradiction(trajectory, doubt));
     }
     let (tracks, imu) = (folder::read_single_tracks(tracks)?, Series::default());
-    let mut runs = vec![UncheckedRun { id: 0, tracks, poses, imu }];
+    let mut warnings: Vec<Warning> = tilted.into_iter().map(Warning::Accepted).collect();
+    let mut runs = divide(vec![UncheckedRun { id: 0, tracks, poses, imu }], &mut warnings);
     options.apply(trajectory, &mut runs)?;
     let name = trajectory.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let source =
         Source { format: Format::Tum, path: Some(trajectory.to_owned()), ..Source::computed() };
-    let warnings = tilted.into_iter().map(Warning::Accepted).collect();
     Recording::accepting(name, robot, runs, source, warnings, &options.accepted)
 }
 

@@ -59,7 +59,8 @@ impl Prepared {
     /// Takes the evidence out of both sets of recordings.
     ///
     /// # Errors
-    /// Those of [`diagnose::Prepared::new`](crate::diagnose::Prepared::new), for either set;
+    /// Those of [`diagnose::Prepared::new`](crate::diagnose::Prepared::new), for either set (a
+    /// simulator may move its robot without slip, so its poses may be those of the tracks);
     /// [`Error::ComparedWithItself`] for a recording that is in both.
     pub fn new(
         sim: &[Recording],
@@ -72,18 +73,16 @@ impl Prepared {
         {
             return Err(Error::ComparedWithItself { recording: both.place() });
         }
-        let set = |recordings: &[Recording], held_out: &HeldOut| {
-            let settings = DiagnoseSettings {
-                held_out: held_out.clone(),
-                gyroscope: settings.gyroscope,
-                resampling: settings.resampling,
-                method: settings.method.clone(),
-                laws: settings.laws.clone(),
-            };
-            Set::new(recordings, vehicle, &settings)
+        let of_set = |held_out: &HeldOut| DiagnoseSettings {
+            held_out: held_out.clone(),
+            tau: None,
+            gyroscope: settings.gyroscope,
+            resampling: settings.resampling,
+            method: settings.method.clone(),
+            laws: settings.laws.clone(),
         };
-        let [first, second] = &settings.held_out;
-        let sets = [set(sim, first)?, set(real, second)?];
+        let [first, second] = settings.held_out.each_ref().map(of_set);
+        let sets = [Set::of_any(sim, vehicle, &first)?, Set::new(real, vehicle, &second)?];
         Ok(Self { sets, vehicle: vehicle.clone(), resampling: settings.resampling })
     }
 

@@ -18,6 +18,7 @@ use crate::{
 };
 use std::path::{Path, PathBuf};
 use trackdyn_diagnose::{DiagnosisFile, Evidence, Options, Resampling, Status};
+use trackdyn_estimate::Contradiction;
 use trackdyn_model::kinematics::Source;
 use trackdyn_model::{EffectId, VehicleFile};
 use trackdyn_recording::RunList;
@@ -37,6 +38,8 @@ const OF_DRIVES: [&str; 2] = ["time.png", "path.png"];
 pub struct DiagnoseSettings {
     /// Runs that nothing is fitted or chosen on: the result is judged on them.
     pub held_out: HeldOut,
+    /// Time by which poses lag behind the track speeds, s. Default: estimated.
+    pub tau: Option<f64>,
     /// Correct the yaw of the poses by the gyroscope of the recordings. Default: poses as they are.
     pub gyroscope: bool,
     /// Draws and seed of the bootstrap behind the tests. Default: 2000 draws, seed 1.
@@ -64,6 +67,7 @@ pub fn diagnose(
 /// A diagnosis whose inputs and settings go together: what was seen, and what is held out of it.
 pub struct Prepared {
     evidence: Evidence,
+    contradictions: Vec<Contradiction>,
     options: Options,
     vehicle: Vehicle,
     name: String,
@@ -88,9 +92,25 @@ impl Prepared {
     /// [`Error::NoRecording`]; [`Error::RecordingTwice`], for runs count as evidence of their own;
     /// [`Error::PointsNotAlone`]; [`Error::HeldOut`] for runs that are not there,
     /// [`Error::AllHeldOut`], [`Error::NoRunsToHoldOut`] for runs of a table;
-    /// [`Error::NoPositions`]; [`Error::Diagnose`] for too little driving, or noise that is not
-    /// known.
+    /// [`Error::NoPositions`]; [`Error::NoReference`] for poses that are computed from the tracks;
+    /// [`Error::Diagnose`] for too little driving, or noise that is not known.
     pub fn new(
+        recordings: &[Recording],
+        vehicle: &Vehicle,
+        settings: &DiagnoseSettings,
+    ) -> Result<Self, Error> {
+        let prepared = Self::of_any(recordings, vehicle, settings)?;
+        let found = recordings.iter().map(|one| one.expect_reference(vehicle, settings.tau));
+        let contradictions = found.collect::<Result<Vec<_>, _>>()?.concat();
+        Ok(Self { contradictions, ..prepared })
+    }
+
+    /// As [`Prepared::new`], of poses that may be computed from the tracks: so a simulator without
+    /// slip moves its robot.
+    ///
+    /// # Errors
+    /// The other ones of [`Prepared::new`].
+    pub(crate) fn of_any(
         recordings: &[Recording],
         vehicle: &Vehicle,
         settings: &DiagnoseSettings,
@@ -109,7 +129,8 @@ impl Prepared {
                 let motion = recording.expect_positions()?;
                 let held_out = settings.held_out.of_motion(motion)?;
                 let (gauge, by_gyroscope) = (vehicle.gauge(), settings.gyroscope);
-                let evidence = Evidence::of_drive(motion, gauge, &settings.method, by_gyroscope);
+                let evidence =
+                    Evidence::of_drive(motion, gauge, &settings.method, by_gyroscope, settings.tau);
                 let evidence = evidence.map_err(named)?;
                 (evidence, held_out, Some(motion.run_list().to_string()))
             }
@@ -121,6 +142,7 @@ impl Prepared {
             poses: of_poses(&recording),
             joined: joined.iter().filter_map(of_poses).collect(),
             evidence,
+            contradictions: Vec::new(),
             options: Options {
                 held_out,
                 resampling: settings.resampling,
@@ -139,6 +161,12 @@ impl Prepared {
     /// What was seen.
     pub fn evidence(&self) -> &Evidence {
         &self.evidence
+    }
+
+    /// What contradicts itself in the recordings, as
+    /// [`Recording::contradictions`](crate::Recording::contradictions) finds it.
+    pub fn contradictions(&self) -> &[Contradiction] {
+        &self.contradictions
     }
 
     /// Indices of the runs that are held out.

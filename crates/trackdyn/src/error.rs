@@ -189,6 +189,14 @@ pub enum Error {
         /// What is missing.
         cause: trackdyn_estimate::Error,
     },
+    /// Poses that are computed from the tracks: nothing to judge a model of the tracks by.
+    #[error("{recording}: {cause}")]
+    NoReference {
+        /// The recording.
+        recording: String,
+        /// What shows it.
+        cause: trackdyn_estimate::Contradiction,
+    },
     /// A recording that cannot be replayed.
     #[error("{recording}: {cause}")]
     Odometry {
@@ -365,7 +373,11 @@ pub enum Error {
 impl Error {
     /// Whether the input is sound, and the computation gave no result.
     pub fn is_no_result(&self) -> bool {
-        matches!(self, Self::Identify { cause, .. } if cause.is_no_result())
+        match self {
+            Self::Identify { cause, .. } => cause.is_no_result(),
+            Self::NoReference { .. } => true,
+            _ => false,
+        }
     }
 
     /// The setting that is to be changed, where the message begins with its name.

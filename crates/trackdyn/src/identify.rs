@@ -27,6 +27,9 @@ use trackdyn_recording::Recording as Motion;
 /// speeds.
 pub const FILES: [&str; 2] = ["kinematics.toml", "kinematics_alpha.toml"];
 
+/// Name of the document of a recording of motion.
+const DOCUMENT: &str = "identification.toml";
+
 /// How to identify.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct IdentifySettings {
@@ -271,7 +274,7 @@ impl Identification {
     /// Writes `kinematics.toml` and `kinematics_alpha.toml`, each where the recording determines
     /// it, and of a recording of motion `identification.toml`. Where all that it determines is the
     /// distance of the ICRs, `kinematics.toml` holds that (schema
-    /// `trackdyn.separation/1`). A file of an earlier fit goes where this one determines none.
+    /// `trackdyn.separation/1`). A file of an earlier fit goes where this one has none.
     ///
     /// # Errors
     /// Those of [`refuse_other`]; [`Error::Output`], [`Error::NotRemoved`].
@@ -282,8 +285,9 @@ impl Identification {
     ) -> Result<Vec<Change>, Error> {
         refuse_other(folder.as_ref())?;
         let mut folder = Folder::prepare(folder.as_ref())?;
-        if let Self::Motion(fit) = self {
-            folder.write("identification.toml", fit.to_toml(provenance).as_bytes())?;
+        match self {
+            Self::Motion(fit) => folder.write(DOCUMENT, fit.to_toml(provenance).as_bytes())?,
+            Self::Points(_) | Self::Turning(_) => folder.remove_if_there(DOCUMENT)?,
         }
         let [icrs, with_alphas] = self.fits(provenance);
         let text = |parameters: Parameters| parameters.document().text().to_owned();

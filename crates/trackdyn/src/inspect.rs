@@ -1,6 +1,7 @@
 //! Judging a recording: what is there, what is missing for which use, what looks wrong.
 
 mod bag;
+mod choice;
 mod driving;
 mod finding;
 mod lack;
@@ -17,6 +18,7 @@ pub use readiness::{Readiness, Use, Verdict};
 use crate::change::Folder;
 use crate::recording::{PointsTable, Topic};
 use crate::{Change, Error, Gauge, Parameters, Part, Provenance, ReadOptions, Recording};
+use choice::Choice;
 use std::path::{Path, PathBuf};
 use trackdyn_recording::rosbag;
 use trackdyn_recording::{Format, Recording as Motion, tum};
@@ -76,6 +78,8 @@ pub struct Inspection {
     pub readiness: Vec<Readiness>,
     /// The options with which to go on: those given, and those that it needs.
     pub options: ReadOptions,
+    /// Options by any of which it can be read, where the choice among them is left to the user.
+    pub choices: Vec<ReadOptions>,
     /// Two parts of it, to fit on one and to judge on the other; none where it is too short, or
     /// where a part is given.
     pub parts: Option<[Part; 2]>,
@@ -122,6 +126,7 @@ impl Inspection {
             lacks: Vec::new(),
             readiness: Vec::new(),
             options: settings.read.clone(),
+            choices: Vec::new(),
             parts: None,
             over_time: None,
         }
@@ -150,7 +155,18 @@ impl Inspection {
 
     fn of_bag(path: &Path, settings: &InspectSettings) -> Result<Self, Error> {
         let seen = rosbag::inspect_for(path, &settings.read.bag)?;
-        let mut of = match bag::read(path, &settings.read, &seen.suggested) {
+        let mut choices = Vec::new();
+        let read = bag::read(path, &settings.read, &seen.suggested).or_else(|failed| {
+            match choice::of(path, &settings.read, &seen, &failed.1) {
+                Choice::One(read) => Ok(*read),
+                Choice::Several(several) => {
+                    choices = several;
+                    Err(failed)
+                }
+                Choice::None => Err(failed),
+            }
+        });
+        let mut of = match read {
             Ok(read) => {
                 let part = read.recording.part(&settings.part)?;
                 let mut of = Self::of_motion(&part, read.speed_unit, settings);
@@ -165,7 +181,12 @@ impl Inspection {
                 of.findings = seen.warnings.into_iter().map(Finding::Reading).collect();
                 of.findings.push(Finding::Unread(reason));
                 of.lacks = lack::of_topics(&seen.topics, &of.options);
-                of.readiness = readiness::none("it cannot be read so");
+                of.readiness = readiness::none(if choices.is_empty() {
+                    "it cannot be read so"
+                } else {
+                    "not without a choice: see below"
+                });
+                of.choices = choices;
                 of
             }
         };

@@ -48,7 +48,7 @@ pub struct Odometry {
     pub comparison: Comparison,
     /// The clock offset, and where it comes from.
     pub clock: Clock,
-    /// What contradicts itself in all of the recording. Wheel odometry judges no parameters.
+    /// What contradicts itself in all of the recording.
     pub contradictions: Vec<Contradiction>,
     replayed: Vec<Replayed>,
     physics_stopped: Option<String>,
@@ -70,8 +70,9 @@ struct Replayed {
 /// the forces on the vehicle, where there is one.
 ///
 /// # Errors
-/// [`Error::NoMotion`] for a table of steady operating points, [`Error::TooLarge`] for parameters
-/// that no robot has, [`Error::Runs`], [`Error::Time`], [`Error::Odometry`], [`Error::Law`].
+/// [`Error::NoMotion`] for a table of steady operating points, [`Error::NoReference`] for poses
+/// that are computed from the tracks, [`Error::TooLarge`] for parameters that no robot has,
+/// [`Error::Runs`], [`Error::Time`], [`Error::Odometry`], [`Error::Law`].
 pub fn odometry(
     recording: &Recording,
     gauge: impl Into<Gauge>,
@@ -101,6 +102,7 @@ fn replay(
     // All of the recording tells most of its clocks.
     let clock = Clock::of(motion, settings.tau)
         .map_err(|cause| Error::Identify { recording: recording.place(), cause })?;
+    let contradictions = corrected.expect_reference(gauge.clone(), settings.tau)?;
     let of_file = |one: &Replayed| [Some(one.set.clone()), one.set.without_alpha()];
     let sets = replayed.iter().flat_map(of_file).flatten();
     let sets: Vec<_> = std::iter::once(ParameterSet::ideal(gauge.metres())).chain(sets).collect();
@@ -121,7 +123,7 @@ fn replay(
     Ok(Odometry {
         comparison,
         clock,
-        contradictions: corrected.contradictions(gauge.clone(), settings.tau),
+        contradictions,
         replayed,
         physics_stopped,
         recording: corrected.into_owned(),

@@ -32,6 +32,18 @@ fn every_fourth_of_many_runs_is_held_out() {
 }
 
 #[test]
+fn a_clock_offset_that_is_known_is_not_estimated() {
+    let (recording, model) = (driven(2).recording, Vehicle::auriga_alpha());
+    let offset = |tau| {
+        let settings = DiagnoseSettings { tau, ..DiagnoseSettings::default() };
+        let prepared = Prepared::new(std::slice::from_ref(&recording), &model, &settings);
+        prepared.expect("evidence").evidence().tau()
+    };
+    assert!(offset(None).abs() < 0.05);
+    assert_eq!(offset(Some(0.12)), 0.12);
+}
+
+#[test]
 fn messages_begin_with_the_setting_to_be_changed() {
     let vehicle = Vehicle::auriga_alpha;
     let square = Path::square(1.0, true, 1).expect("a square");

@@ -4,7 +4,9 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 use trackdyn_estimate::synthetic::{Synthetic, random_steps};
-use trackdyn_recording::{Columns, Doubt, Error, Recording, TableOptions, columns, folder};
+use trackdyn_recording::{
+    Columns, Doubt, Error, Recording, TableOptions, Warning, columns, folder,
+};
 
 const RADIUS: f64 = 0.15;
 
@@ -148,6 +150,28 @@ fn a_gyroscope_may_stand_beside_poses_or_in_their_place() {
     assert!(told.contains("the yaw of the gyroscope in gyro, without positions"), "{told}");
 }
 
+/// A compass without positions, held between its updates, tells the yaw as that of a folder does,
+/// and a gyroscope beside it does not replace it.
+#[test]
+fn yaw_may_stand_alone() {
+    let (place, path) = table("t,l,r,head,gyro", |[t, l, r, _, _, yaw], _| {
+        format!("{t},{l},{r},{},0", yaw.to_degrees())
+    });
+    for text in ["t=t,v_l=l,v_r=r,yaw=head:deg", "t=t,v_l=l,v_r=r,yaw=head:deg,gyro_z=gyro"] {
+        let found = read(&path, text, &TableOptions::default()).expect("readable");
+        let copy = place.path().join("copy");
+        folder::write(&found, &copy).expect("written");
+        for found in [found, folder::read(&copy).expect("a recording")] {
+            let (run, truth) = (&found.runs()[0], truth());
+            assert!(!run.has_positions());
+            let truth = truth.runs()[0].poses();
+            assert_eq!(run.poses().len(), truth.len(), "{text}");
+            let off = run.poses().iter().zip(truth).map(|(a, b)| a.pose.yaw - b.pose.yaw);
+            assert!(off.map(f64::sin).all(|off| off.abs() < 1e-9), "{text}");
+        }
+    }
+}
+
 #[test]
 fn times_in_another_unit_are_doubted_with_the_option_that_helps() {
     let (_place, path) = table("t,l,r,x,y,yaw", |[t, l, r, x, y, yaw], _| {
@@ -159,4 +183,24 @@ fn times_in_another_unit_are_doubted_with_the_option_that_helps() {
     let is_stamps = matches!(&error, Error::Contradiction { doubt: Doubt::Stamps { .. }, .. });
     assert!(is_stamps && text.contains("milliseconds"), "{text}");
     assert!(text.contains("--columns t=COLUMN:ms"), "{text}");
+}
+
+/// Rows after the clock was set back are not sorted among those before it.
+#[test]
+fn a_clock_that_is_set_back_begins_another_run() {
+    let row =
+        |[t, left, right, x, y, yaw]: [f64; 6], _| format!("{t},{left},{right},{x},{y},{yaw}");
+    let (_place, path) = table("t,l,r,x,y,yaw", row);
+    let text = std::fs::read_to_string(&path).expect("text");
+    let (_, rows) = text.split_once('\n').expect("a header");
+    std::fs::write(&path, format!("{text}{rows}")).expect("written");
+    let recording = read(&path, "t=t,v_l=l,v_r=r,x=x,y=y,yaw=yaw", &TableOptions::default());
+    let recording = recording.expect("accepted");
+    let set_back = Warning::ClockSetBack { run: 0, runs: 2 };
+    assert!(recording.warnings().contains(&set_back), "{:?}", recording.warnings());
+    let ids: Vec<i64> = recording.runs().iter().map(trackdyn_recording::Run::id).collect();
+    assert_eq!(ids, [0, 1]);
+    for run in recording.runs() {
+        assert_is_truth(&recording.with_runs(vec![run.clone()]));
+    }
 }

@@ -249,3 +249,19 @@ fn formats_are_told_by_what_is_there() {
     );
     assert!(read(&empty.path().join("nowhere")).contains("nowhere: cannot be read"));
 }
+
+/// Numbers of runs that are there stay: what follows a step back has one after all of them.
+#[test]
+fn a_clock_that_is_set_back_begins_a_run_with_a_new_number() {
+    let rows = |run: i64, count: u32, rest: &str| -> String {
+        let row = |k: u32| format!("{run},{},{rest}\n", 0.1 * f64::from(k));
+        (0..count).map(row).collect()
+    };
+    let both = |rest: &str| [rows(3, 50, rest), rows(3, 30, rest), rows(7, 20, rest)].concat();
+    let tracks = format!("run,t,v_left,v_right\n{}", both("0.1,0.2"));
+    let poses = format!("run,t,x,y,yaw\n{}", both("0,0,0"));
+    let recording = read(MANIFEST, &tracks, &poses).expect("accepted");
+    let runs = recording.runs().iter().map(|run| (run.id(), run.tracks().len()));
+    assert_eq!(runs.collect::<Vec<_>>(), [(3, 50), (7, 20), (8, 30)]);
+    assert!(recording.warnings().contains(&Warning::ClockSetBack { run: 3, runs: 2 }));
+}

@@ -1,10 +1,10 @@
 //! Judgements of bags: what is mended, what is told, and what is left to the user.
 
-use super::drives::{Bag, RADIUS, SEPARATION, at, speeds, times};
-use trackdyn::inspect::{Content, Finding, Lack, Use, Verdict};
+use super::drives::{Bag, RADIUS, SEPARATION, at, poses, quaternion, speeds, times};
+use trackdyn::inspect::{Content, Finding, Lack, Readiness, Use, Verdict};
 use trackdyn::recording::SpeedUnit;
 use trackdyn::{InspectSettings, Inspection, Recording, inspect};
-use trackdyn_core::PerSide;
+use trackdyn_core::{PerSide, Pose, Twist};
 use trackdyn_estimate::Contradiction;
 use trackdyn_tests::cdr::Message;
 
@@ -162,4 +162,87 @@ fn numbers_of_both_sides_are_found_by_their_names_and_their_unit_by_the_poses() 
     let Content::Motion(driving) = &found.content else { panic!("{:?}", found.content) };
     let ratio = driving.travel_ratio.expect("a way");
     assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
+}
+
+/// Poses of a robot that slips, and whose ICRs are in front of its middle.
+fn slipping() -> Vec<(f64, Pose)> {
+    let mut pose = Pose::default();
+    let step = 0.005;
+    let way = (0..12_000_u32).map(|k| {
+        let t = f64::from(k) * step;
+        let found = (t, pose);
+        let PerSide { left, right } = speeds(t + 0.5 * step).map(|speed| RADIUS * speed);
+        let w = (right - left) / (1.5 * SEPARATION);
+        let twist = Twist { v_x: f64::midpoint(left, right), v_y: -0.1 * w, w };
+        pose = pose.compose(&Pose::exp(&twist, step));
+        found
+    });
+    way.step_by(10).collect()
+}
+
+/// Of poses that are computed from the tracks and others, the others are taken; among several
+/// others, the user chooses.
+#[test]
+fn among_several_poses_wheel_odometry_is_not_taken() {
+    let bag = |others: &[&'static str]| {
+        let mut bag = wheels(PerSide::new(1.0, 1.0));
+        for (t, pose) in poses() {
+            let mut cdr = Message::new(at(t).1, "odom");
+            cdr.text("base_link");
+            cdr.numbers(&[pose.x, pose.y, 0.0]);
+            cdr.numbers(&quaternion(pose.yaw));
+            cdr.numbers(&[0.0; 36 + 6 + 36]);
+            bag.message(at(t).0, "/odom", "nav_msgs/msg/Odometry", cdr);
+        }
+        for topic in others {
+            for (t, pose) in slipping() {
+                let mut cdr = Message::new(at(t).1, "map");
+                cdr.numbers(&[pose.x, pose.y, 0.0]);
+                cdr.numbers(&quaternion(pose.yaw));
+                bag.message(at(t).0, topic, "geometry_msgs/msg/PoseStamped", cdr);
+            }
+        }
+        inspected(bag)
+    };
+    let found = bag(&["/slam/pose"]);
+    assert_eq!(found.options.bag.pose_topic.as_deref(), Some("/slam/pose"), "{:?}", found.findings);
+    let told = |of: &Finding| matches!(of, Finding::Mended(text) if text.contains("tracks: /odom"));
+    assert!(found.findings.iter().any(told) && found.choices.is_empty(), "{:?}", found.findings);
+    assert!(found.readiness.iter().all(Readiness::is_ready), "{:?}", found.readiness);
+
+    let found = bag(&["/slam/pose", "/mocap/pose"]);
+    assert!(matches!(found.content, Content::Unread(_)));
+    let topics = found.choices.iter().map(|of| of.bag.pose_topic.as_deref());
+    assert_eq!(topics.collect::<Vec<_>>(), [Some("/mocap/pose"), Some("/slam/pose")]);
+}
+
+/// Names that tell no side are told by how the poses turn.
+#[test]
+fn joints_without_a_side_are_told_by_the_poses() {
+    let mut bag = Bag::default();
+    for t in times(50) {
+        let PerSide { left, right } = speeds(t);
+        bag.joints("/joint_states", at(t), &["wheel_1", "wheel_2"], [&[], &[right, left]]);
+    }
+    for (t, pose) in slipping() {
+        bag.pose(at(t), [pose.x, pose.y], quaternion(pose.yaw));
+    }
+    let found = inspected(bag);
+    let bag = &found.options.bag;
+    assert_eq!(
+        (&bag.left_joints[..], &bag.right_joints[..]),
+        (&["wheel_2".to_owned()][..], &["wheel_1".to_owned()][..])
+    );
+    assert!(found.readiness.iter().all(Readiness::is_ready), "{:?}", found.readiness);
+}
+
+/// Poses that no parameters explain are none for the other uses either.
+#[test]
+fn mirrored_poses_are_good_for_nothing() {
+    let mut bag = wheels(PerSide::new(1.0, 1.0));
+    for (t, pose) in slipping() {
+        bag.pose(at(t), [pose.x, -pose.y], quaternion(pose.yaw));
+    }
+    let found = inspected(bag);
+    assert!(!found.readiness.iter().any(Readiness::is_ready), "{:?}", found.readiness);
 }

@@ -234,9 +234,15 @@ fn fixes_are_poses_with_the_yaw_of_an_imu_and_are_refused_without() {
         let path = bag(folder.path(), topics);
         rosbag::read(&path, &named).map(drop).expect_err("refused").to_string()
     };
-    assert!(refused(&[JOINTS, fixes]).contains("expected a sensor_msgs/Imu whose orientation"));
+    let text = refused(&[JOINTS, fixes]);
+    assert!(text.contains("there is no sensor_msgs/Imu whose orientation changes"), "{text}");
+    assert!(text.contains("(--pose-topic)") && text.contains("(--columns)"), "{text}");
+    let (rear, kind_of_fix, rows) = ("/rear/fix", fixes.1, fixes.2);
+    let text = refused(&[JOINTS, fixes, (rear, kind_of_fix, rows)]);
+    assert!(text.contains("several receivers, /fix, /rear/fix"), "{text}");
     let text = refused(&[JOINTS, fixes, ("/imu", kind, &none)]);
     assert!(text.contains("positions without yaw"), "{text}");
+    assert!(text.contains("--pose-topic /imu takes its yaw alone"), "{text}");
     let text = refused(&[JOINTS, fixes, ("/imu", kind, &off)]);
     assert!(text.contains("off the course of the fixes by 7"), "{text}");
 }

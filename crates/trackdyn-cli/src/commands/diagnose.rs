@@ -7,7 +7,9 @@ use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::folder::prepare_folder;
 use crate::gyroscope::say_gyroscopes;
-use crate::options::{MethodOptions, PartOptions, RecordingOptions, held_out, refuse_for_points};
+use crate::options::{
+    MethodOptions, PART, PartOptions, RecordingOptions, held_out, refuse_for_points, seconds,
+};
 use crate::progress::Progress;
 use crate::provenance::provenance;
 use crate::stderr::{say, warn};
@@ -45,26 +47,32 @@ pub struct Options {
     more: Vec<PathBuf>,
     #[command(flatten)]
     part: PartOptions,
+    /// Time in s by which poses lag behind the track speeds [default: estimated]
+    #[arg(long, help_heading = PART, value_name = "SECONDS", value_parser = seconds,
+          allow_hyphen_values = true)]
+    tau: Option<f64>,
 }
 
 /// Diagnoses, prints the answer in one screen and writes it.
 pub fn run(options: &Options) -> Outcome {
     let vehicle = Vehicle::choose(&options.vehicle)?;
     let mcap = options.mcap.then(|| "--mcap".to_owned());
+    let tau = options.tau.map(|_| "--tau".to_owned());
     let given = options.recording.given().into_iter().chain(options.part.given());
-    let given: Vec<String> = given.chain(options.method.given()).chain(mcap).collect();
+    let given: Vec<String> = given.chain(options.method.given()).chain(mcap).chain(tau).collect();
     refuse_for_points(&given, &options.recording.recording)?;
     let paths = std::iter::once(&options.recording.recording).chain(&options.more);
     let recordings = options.recording.read_all(paths, &options.part.part())?;
     let settings = DiagnoseSettings {
         held_out: held_out("--held-out", options.held_out.as_deref())?,
+        tau: options.tau,
         gyroscope: options.method.gyroscope,
         resampling: options.method.resampling(),
         method: options.method.method()?,
         laws: Vec::new(),
     };
     let prepared = Prepared::new(&recordings, &vehicle, &settings)?;
-    for contradiction in recordings.iter().flat_map(|one| one.contradictions(&vehicle, None)) {
+    for contradiction in prepared.contradictions() {
         warn(format_args!("{contradiction}"));
     }
     say_gyroscopes(prepared.evidence().gyroscope());

@@ -211,8 +211,9 @@ struct FrameOptions {
     /// Root link of the robot's URDF [default: the frame whose poses the log has, else base_link]
     #[arg(long, value_name = "FRAME")]
     base_frame: Option<Name>,
-    /// Origin of the ICRs in the base frame, in m: forward, left (ROS axes). Of a map it is the
-    /// centre of the contact area of both tracks; of a recording the frame of its poses
+    /// Origin of the ICRs in the base frame, in m: forward, left (x, y of ROS, as in the URDF; not
+    /// the order of --cog, which is right, forward). Of a map it is the centre of the contact area
+    /// of both tracks; of a recording the frame of its poses
     #[arg(long, value_name = "FORWARD,LEFT", value_parser = pair, default_value = "0,0",
           allow_hyphen_values = true)]
     contact_centre: [f64; 2],

@@ -39,7 +39,8 @@ pub struct Options {
     /// Mass in kg, with all that it carries
     #[arg(long, value_name = "KG", value_parser = positive)]
     mass: Option<f64>,
-    /// Centre of gravity in m from the centre of the contact area: right, forward [default: there]
+    /// Centre of gravity in m from the centre of the contact area: right, forward (x, y of the
+    /// vehicle file; not the order of ROS, in which it is forward, left) [default: there]
     #[arg(long, value_name = "RIGHT,FORWARD", value_parser = pair, allow_hyphen_values = true)]
     cog: Option<[f64; 2]>,
     /// Friction coefficients across and along the tracks [default: 0.8,0.8, as a guess]

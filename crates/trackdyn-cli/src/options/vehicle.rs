@@ -16,7 +16,8 @@ pub struct ModelOptions {
     /// auriga-alpha]
     #[arg(long, value_name = "FILE|NAME")]
     pub vehicle: Option<PathBuf>,
-    /// Centre of gravity in m from the centre of the contact area: right, forward
+    /// Centre of gravity in m from the centre of the contact area: right, forward (x, y of the
+    /// vehicle file; not the order of ROS, in which it is forward, left)
     #[arg(long, value_name = "RIGHT,FORWARD", value_parser = pair, allow_hyphen_values = true)]
     pub cog: Option<[f64; 2]>,
     /// Switch an effect on, with its typical size or this one; repeatable (see `trackdyn effects`)

@@ -38,11 +38,12 @@ impl Evidence {
         gauge: f64,
         settings: &Settings,
     ) -> Result<Self, Error> {
-        Self::of_drive(recording, gauge, settings, false)
+        Self::of_drive(recording, gauge, settings, false, None)
     }
 
     /// The segments of a recording: where it is wanted, with the yaw of its poses corrected by its
-    /// gyroscope, if it has one that serves ([`Evidence::gyroscope`]).
+    /// gyroscope, if it has one that serves ([`Evidence::gyroscope`]). `tau` is the time by which
+    /// poses lag behind the track speeds, s; estimated where it is not given.
     ///
     /// # Errors
     /// Those of [`Evidence::of_recording`].
@@ -51,13 +52,14 @@ impl Evidence {
         gauge: f64,
         settings: &Settings,
         by_gyroscope: bool,
+        tau: Option<f64>,
     ) -> Result<Self, Error> {
         settings.check()?;
         let by = &settings.evidence;
         check_places(recording, by.max_coordinate)?;
         let recording = with_readings_every(recording, by.min_reading_interval);
         let recording = with_poses_every(&recording, by.min_pose_interval);
-        let clock = Clock::of(&recording, None).map_err(Error::Clock)?;
+        let clock = Clock::of(&recording, tau).map_err(Error::Clock)?;
         let tau = clock.tau();
         let (recording, measured) = with_quieter_poses(&recording, tau);
         // Poses stand at their times now, so the gyroscope tells where they look.

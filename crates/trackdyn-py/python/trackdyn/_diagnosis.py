@@ -233,6 +233,7 @@ def diagnose(
     draws: int = 2000,
     seed: int = 1,
     gyroscope: bool = False,
+    tau: float | None = None,
     laws: LawLike | Iterable[LawLike] | None = None,
     progress: bool | Progress | None = None,
 ) -> Diagnosis:
@@ -255,6 +256,8 @@ def diagnose(
         Draws of the bootstrap behind the tests, 1000 to 100000, and their seed.
     gyroscope : bool
         Correct the yaw of the poses by the recordings' gyroscope.
+    tau : float, optional
+        Time by which poses lag behind the track speeds, s. Default: estimated.
     laws : Law or several, optional
         Suspects beside the catalogue, as :func:`law` makes them. Those that the vehicle has are
         suspects anyway.
@@ -269,7 +272,13 @@ def diagnose(
     single = isinstance(recordings, Recording) or _values.is_single(recordings)
     several: Any = [recordings] if single else recordings
     keywords = keywords_of(
-        settings=settings, held_out=held_out, draws=draws, seed=seed, gyroscope=gyroscope, laws=laws
+        settings=settings,
+        held_out=held_out,
+        draws=draws,
+        seed=seed,
+        gyroscope=gyroscope,
+        tau=tau,
+        laws=laws,
     )
     with told(progress, "diagnose") as tell:
         recorded = [recording_of(one) for one in several]
@@ -284,6 +293,7 @@ def keywords_of(
     draws: int = 2000,
     seed: int = 1,
     gyroscope: bool = False,
+    tau: float | None = None,
     laws: LawLike | Iterable[LawLike] | None = None,
 ) -> dict[str, Any]:
     """The keywords of :func:`diagnose`, checked, as the library takes them."""
@@ -292,6 +302,7 @@ def keywords_of(
         "draws": _values.count("draws", draws),
         "seed": seed_of(seed),
         "gyroscope": _values.flag("gyroscope", gyroscope),
+        "tau": _values.maybe(_values.finite, "tau", tau),
         "settings": _settings(settings),
         "laws": ids_of(laws),
     }

@@ -3,7 +3,7 @@
 use super::time::Times;
 use super::{Columns, Key, Unit, units};
 use crate::recording::{Recording, Source, UncheckedRun, Warning};
-use crate::recording::{turn_by_gyroscope, turn_sensor};
+use crate::recording::{divide, turn_by_gyroscope, turn_sensor};
 use crate::rosbag::yaw_of_quaternion;
 use crate::sample::{ImuSample, PoseSample, TrackSample};
 use crate::table::Table;
@@ -46,11 +46,12 @@ pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Re
         let message = "no rows below the header".to_owned();
         return Err(Error::Empty { path: path.to_owned(), message });
     }
-    let mut runs = rows(table, columns, scales, options.gyro_in_degrees)?;
-    turn_sensor(&mut runs, options.pose_axes, options.mount_yaw);
+    let runs = rows(table, columns, scales, options.gyro_in_degrees)?;
     let mut warnings = Vec::new();
+    let mut runs = divide(runs, &mut warnings);
+    turn_sensor(&mut runs, options.pose_axes, options.mount_yaw);
     let gyroscope = columns.columns.get(&Key::Gyro);
-    if let Some(gyroscope) = gyroscope.filter(|_| !columns.columns.contains_key(&Key::X)) {
+    if let Some(gyroscope) = gyroscope.filter(|_| !columns.has_poses()) {
         runs.iter_mut().for_each(turn_by_gyroscope);
         let taken = format!("the yaw of the gyroscope in {}, without positions", gyroscope.name);
         warnings.push(Warning::Chosen { what: "poses", taken });
@@ -138,12 +139,18 @@ fn rows(
 /// Leaves out poses that a table repeats because its rows come more often than poses: of every
 /// usual number of equal rows, the first stays.
 fn thin_out(poses: &mut Vec<PoseSample>) -> Option<Warning> {
-    let groups = || poses.chunk_by(|a, b| a.pose == b.pose).map(<[PoseSample]>::len);
+    // A position that is not known is so in all rows.
+    let is_repeated = |a: &PoseSample, b: &PoseSample| {
+        let same = |a: f64, b: f64| a == b || (a.is_nan() && b.is_nan());
+        let (a, b) = (&a.pose, &b.pose);
+        same(a.x, b.x) && same(a.y, b.y) && a.yaw == b.yaw
+    };
+    let groups = || poses.chunk_by(is_repeated).map(<[PoseSample]>::len);
     let mut lengths: Vec<usize> = groups().collect();
     lengths.sort_unstable();
     let usual = lengths.get(lengths.len() / 2).copied().filter(|usual| *usual > 1)?;
     let kept: Vec<PoseSample> = poses
-        .chunk_by(|a, b| a.pose == b.pose)
+        .chunk_by(is_repeated)
         .flat_map(|equal| equal.iter().step_by(usual))
         .copied()
         .collect();

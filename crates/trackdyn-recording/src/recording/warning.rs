@@ -124,6 +124,13 @@ pub enum Warning {
         /// Runs that come of it.
         runs: usize,
     },
+    /// Stamps of a table that step back and go on from there, as those of a clock that is set back.
+    ClockSetBack {
+        /// Number of the run, and of the first that comes of it: others follow after all runs.
+        run: i64,
+        /// Runs that come of it.
+        runs: usize,
+    },
     /// A joint whose position wraps: what it lacks was added.
     TurnsAdded {
         /// The joint.
@@ -270,6 +277,11 @@ impl fmt::Display for Warning {
                 f,
                 "{topic}: stamps step back and go on from there, as after the reset of a \
                  simulation: {runs} runs"
+            ),
+            Self::ClockSetBack { run, runs } => write!(
+                f,
+                "run {run}: stamps step back and go on from there, as those of a clock that is set \
+                 back: {runs} runs"
             ),
             Self::TurnsAdded { joint, count, modulus } => turns_added(f, joint, *count, *modulus),
             Self::JointJumps { joint, count, t } => write!(

@@ -9,6 +9,7 @@
 
 use super::date::Received;
 use std::f64::consts::{PI, TAU};
+use trackdyn_core::robust::median;
 
 /// Semi-major axis of the ellipsoid, m.
 const SEMI_MAJOR_AXIS: f64 = 6_378_137.0;
@@ -41,6 +42,9 @@ const MAX_COURSE_OFFSET: f64 = 0.35;
 /// Smallest mean resultant length of doubled angles between yaw and course: below, the yaw does not
 /// follow the course, as that of a compass, which counts clockwise.
 const MIN_COURSE_AGREEMENT: f64 = 0.5;
+
+/// Largest scatter of the fixes, m, by which a course of that length can be told.
+const MAX_SCATTER: f64 = COURSE_LENGTH / 6.0;
 
 /// A fix: latitude and longitude in degrees, altitude in metres.
 pub(super) type Fix = Received<[f64; 3]>;
@@ -129,6 +133,20 @@ fn yaw_at(yaws: &[(i64, f64)], time: i64) -> Option<f64> {
         .then(|| first + wrapped(last - first) * portion(time.saturating_sub(start)))
 }
 
+/// By how much fixes miss a smooth way, m, each by itself; none of fewer than three.
+fn scatter(poses: &[Received<[f64; 3]>]) -> Option<f64> {
+    /// Median size of normal errors, in standard deviations.
+    const MEDIAN: f64 = 0.674_49;
+    let bends = poses.windows(3).flat_map(|three| {
+        [0, 1].map(|axis| {
+            let [before, at, after] = [0, 1, 2].map(|k| three[k].value[axis]);
+            (before - 2.0 * at + after).abs()
+        })
+    });
+    // Var(p0 - 2 p1 + p2) = 6 sigma^2
+    Some(median(&mut bends.collect::<Vec<_>>())? / (MEDIAN * 6.0_f64.sqrt()))
+}
+
 /// Compares yaw and course where the robot drives straight, forward or backward.
 fn check_course(poses: &[Received<[f64; 3]>], mount: f64) -> Result<(), String> {
     let (mut cos, mut sin, mut count) = (0.0, 0.0, 0_u32);
@@ -155,6 +173,16 @@ fn check_course(poses: &[Received<[f64; 3]>], mount: f64) -> Result<(), String> 
     }
     let (agreement, offset) = (cos.hypot(sin) / f64::from(count), sin.atan2(cos) / 2.0);
     let expected = "expected yaw that counts counter-clockwise from east, as REP-103 has it";
+    if agreement < MIN_COURSE_AGREEMENT
+        && let Some(scatter) = scatter(poses).filter(|scatter| *scatter > MAX_SCATTER)
+    {
+        return Err(format!(
+            "its yaw cannot be compared with the course of the fixes, which scatter by some \
+             {scatter:.1} m from one to the next: expected fixes that are known to some \
+             centimetres, as a receiver with corrections (RTK) gives them; the gyroscope of an \
+             IMU alone, by --pose-topic of its topic, tells x_r - x_l"
+        ));
+    }
     if agreement < MIN_COURSE_AGREEMENT {
         return Err(format!("its yaw does not follow the course of the fixes: {expected}"));
     }
@@ -242,6 +270,23 @@ mod tests {
         // backward all the time
         let (fixes, yaws, _) = drive(|yaw| yaw + PI);
         assert!(poses(&fixes, &yaws, 0.0).is_ok());
+    }
+
+    /// Where it is the fixes that are coarse, the yaw is not blamed.
+    #[test]
+    fn fixes_without_corrections_do_not_tell_a_course() {
+        let (mut fixes, yaws, _) = drive(wrapped);
+        let mut off = 0.5_f64;
+        for (_, fix) in &mut fixes {
+            for degrees in &mut fix.value[..2] {
+                // logistic map: without order from one fix to the next
+                off = 3.99 * off * (1.0 - off);
+                *degrees += (off - 0.5) * 4e-5;
+            }
+        }
+        let text = poses(&fixes, &yaws, 0.0).expect_err("refused");
+        assert!(text.contains("which scatter by some") && text.contains("(RTK)"), "{text}");
+        assert!(!text.contains("does not follow"), "{text}");
     }
 
     #[test]

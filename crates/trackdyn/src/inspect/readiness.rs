@@ -3,6 +3,7 @@
 use super::{Driving, Finding, InspectSettings};
 use crate::identify::{FILES, Identification, IdentifySettings, identify};
 use crate::{Error, Gauge, Recording};
+use std::f64::consts::PI;
 use trackdyn_diagnose::Settings;
 use trackdyn_diagnose::evidence::Evidence;
 use trackdyn_estimate::odometry::{Comparison, ParameterSet};
@@ -104,11 +105,21 @@ pub(super) fn of_motion(
 ) -> Vec<Readiness> {
     let gap = driving.separation.as_ref().ok().map(|found| found.gap.value);
     let identified = to_identify(recording, settings, gap, findings);
+    let is_identified = identified.is_ready();
     let unusable = findings.iter().find_map(|of| match of {
         Finding::Fit(Contradiction::WheelOdometry { .. }) => {
             Some("these poses are wheel odometry: expected those of something else")
         }
         Finding::Turning(_) => Some("the tracks do not turn as the poses do"),
+        // What no parameters explain is none of one drive.
+        Finding::Fit(Contradiction::Way { .. }) if !is_identified => {
+            Some("the poses move where the tracks do not drive")
+        }
+        Finding::Fit(Contradiction::Turning { .. } | Contradiction::Follows { .. })
+            if !is_identified =>
+        {
+            Some("the poses do not turn as the tracks do")
+        }
         _ => None,
     });
     let usable = match unusable {
@@ -125,7 +136,7 @@ pub(super) fn of_motion(
         |motion| {
             let gauge = gauge(settings, gap);
             let tau = driving.clock.as_ref().map_or(0.0, Clock::tau);
-            [to_replay(motion, gauge, tau), to_diagnose(motion, gauge)]
+            [to_replay(motion, gauge, tau), to_diagnose(motion, gauge, driving)]
         },
     );
     vec![
@@ -141,14 +152,20 @@ fn to_replay(motion: &Motion, gauge: f64, tau: f64) -> Verdict {
 }
 
 /// Takes the evidence of a diagnosis out of it.
-fn to_diagnose(motion: &Motion, gauge: f64) -> Verdict {
+fn to_diagnose(motion: &Motion, gauge: f64, driving: &Driving) -> Verdict {
     let method = Settings::default();
     let needed = method.evidence.min_segments;
+    let turned = driving.turned.left.abs() + driving.turned.right.abs();
+    let is_turning = match &driving.separation {
+        Ok(found) => found.gap.deviation < method.base.max_gap_deviation * gauge,
+        Err(_) => turned >= PI,
+    };
     match Evidence::of_recording(motion, gauge, &method) {
         Ok(evidence) if evidence.samples().len() < needed => {
             let found = evidence.samples().len();
             Verdict::No(format!("{found} segments: expected at least {needed}"))
         }
+        Ok(_) if !is_turning => Verdict::No(trackdyn_diagnose::Error::NoTurning.to_string()),
         other => of_result(other.map(drop)),
     }
 }
@@ -160,7 +177,12 @@ fn of_result<E: std::fmt::Display>(result: Result<(), E>) -> Verdict {
 /// The gauge given, else one that makes nothing look wrong, m.
 fn gauge(settings: &InspectSettings, gap: Option<f64>) -> f64 {
     let given = settings.gauge.as_ref().map(Gauge::metres);
-    given.unwrap_or_else(|| gap.map_or(USUAL_GAUGE, |gap| gap / USUAL_GAP))
+    given.unwrap_or_else(|| usual_gauge(gap))
+}
+
+/// A gauge that makes nothing look wrong by the distance of the ICRs, m, where that is known.
+pub(super) fn usual_gauge(gap: Option<f64>) -> f64 {
+    gap.map_or(USUAL_GAUGE, |gap| gap / USUAL_GAP)
 }
 
 /// Tries to identify the robot.

@@ -1,7 +1,6 @@
 //! Which of the parameters that were replayed to take.
 
 use super::{Odometry, Replayed};
-use trackdyn_estimate::Contradiction;
 use trackdyn_estimate::odometry::{Estimate, ParameterSet};
 use trackdyn_model::VehicleFile;
 
@@ -73,10 +72,6 @@ pub(super) fn of(odometry: &Odometry) -> Advice {
         let reason = "the ideal drive was replayed alone: give parameter files by --kinematics, or \
                       a vehicle";
         return undecided(reason.to_owned());
-    }
-    let is_computed = |of: &&Contradiction| matches!(of, Contradiction::WheelOdometry { .. });
-    if let Some(contradiction) = odometry.contradictions.iter().find(is_computed) {
-        return undecided(contradiction.to_string());
     }
     let is_fitted = |one: &&Replayed| !odometry.is_held_out(one.parameters.source());
     let files = odometry.replayed.iter().filter(is_fitted).map(Replayed::name);

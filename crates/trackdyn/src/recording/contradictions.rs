@@ -1,7 +1,7 @@
 //! What contradicts itself within a recording.
 
 use super::Recording;
-use crate::Gauge;
+use crate::{Error, Gauge};
 use trackdyn_estimate::Contradiction;
 use trackdyn_estimate::identification::{Options, contradictions};
 
@@ -21,5 +21,23 @@ impl Recording {
         };
         let options = Options { tau, ..Options::new(vehicle.into().metres()) };
         contradictions(motion, &options).unwrap_or_default()
+    }
+
+    /// These [contradictions](Self::contradictions), for a use that needs poses of something else
+    /// than the tracks.
+    ///
+    /// # Errors
+    /// [`Error::NoReference`].
+    pub(crate) fn expect_reference(
+        &self,
+        vehicle: impl Into<Gauge>,
+        tau: Option<f64>,
+    ) -> Result<Vec<Contradiction>, Error> {
+        let found = self.contradictions(vehicle, tau);
+        let is_computed = |of: &&Contradiction| matches!(of, Contradiction::WheelOdometry { .. });
+        match found.iter().find(is_computed) {
+            Some(cause) => Err(Error::NoReference { recording: self.place(), cause: *cause }),
+            None => Ok(found),
+        }
     }
 }

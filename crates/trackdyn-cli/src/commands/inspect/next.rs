@@ -1,7 +1,7 @@
 //! The commands to go on with.
 
 use crate::options::GaugeOptions;
-use crate::shell::{command, option, part, path, reading};
+use crate::shell::{self, command, option, part, path};
 use crate::wrapped::{WIDTH, wrapped};
 use std::fmt::Write;
 use std::path::Path;
@@ -40,6 +40,11 @@ pub fn text(found: &Inspection, asked: &Asked) -> String {
         text +=
             &wrapped("  METRES        ", "the wheel radius: belt travel per radian of the joints");
     }
+    if has("LEFT") {
+        let joints = joints(found).collect::<Vec<_>>().join(", ");
+        let text_of = format!("a joint of that side, each repeatable, of {joints}");
+        text += &wrapped("  LEFT, RIGHT   ", &text_of);
+    }
     if has("VEHICLE.toml") {
         let made = "a vehicle file: trackdyn init writes one from a few measured numbers; identify \
                     and odometry need its gauge only (--gauge, in m)";
@@ -51,6 +56,21 @@ pub fn text(found: &Inspection, asked: &Asked) -> String {
     text
 }
 
+/// Whether it is a bag with joints of which no side is known.
+fn has_unnamed_sides(found: &Inspection) -> bool {
+    let bag = &found.options.bag;
+    let names = [&bag.left_joints, &bag.right_joints, &bag.left_signals, &bag.right_signals];
+    matches!(found.content, Content::Unread(_))
+        && names.into_iter().all(Vec::is_empty)
+        && bag.twist_topic.is_none()
+        && joints(found).next().is_some()
+}
+
+/// The joints of a bag.
+fn joints(found: &Inspection) -> impl Iterator<Item = &str> {
+    found.topics.iter().flat_map(|topic| &topic.joints).map(String::as_str)
+}
+
 fn commands(found: &Inspection, asked: &Asked) -> Vec<String> {
     let recording = path(asked.path);
     if matches!(found.content, Content::Poses(_)) {
@@ -58,7 +78,7 @@ fn commands(found: &Inspection, asked: &Asked) -> Vec<String> {
         return vec![command(&words, WIDTH)];
     }
     let needs_radius = found.lacks.iter().any(|lack| matches!(lack, Lack::WheelRadius { .. }));
-    let reading = reading(&found.options, needs_radius);
+    let reading = shell::reading(&found.options, needs_radius);
     let bag = &found.options.bag;
     if matches!(found.content, Content::Unread(_))
         && bag.twist_topic.is_some()
@@ -67,6 +87,18 @@ fn commands(found: &Inspection, asked: &Asked) -> Vec<String> {
     {
         let words = ["trackdyn inspect".to_owned(), recording];
         return vec![command(&words.into_iter().chain(reading).collect::<Vec<_>>(), WIDTH)];
+    }
+    if !found.choices.is_empty() || has_unnamed_sides(found) {
+        let line = |options: &[String]| {
+            let words = ["trackdyn inspect".to_owned(), recording.clone()];
+            command(&words.into_iter().chain(options.iter().cloned()).collect::<Vec<_>>(), WIDTH)
+        };
+        let sides = ["LEFT", "RIGHT"]
+            .map(|side| option(if side == "LEFT" { "left-joint" } else { "right-joint" }, side));
+        return match found.choices.as_slice() {
+            [] => vec![line(&sides.into_iter().chain(reading).collect::<Vec<_>>())],
+            choices => choices.iter().map(|of| line(&shell::reading(of, false))).collect(),
+        };
     }
     let tau = asked.tau.map(|tau| option("tau", &tau.to_string()));
     let open = || "--vehicle VEHICLE.toml".to_owned();

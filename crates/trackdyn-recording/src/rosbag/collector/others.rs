@@ -142,11 +142,14 @@ impl Collector<'_> {
         let is_named = |name: &str| self.options.pose_topic.as_deref() == Some(name);
         let frames_are_named =
             self.options.parent_frame.is_some() || self.options.child_frame.is_some();
+        let receivers: Vec<String> = self.fixes.keys().cloned().collect();
+        let gyroscopes: Vec<String> = self.imu.keys().cloned().collect();
         for (name, fixes) in std::mem::take(&mut self.fixes) {
             if !is_named(&name) && (!self.poses.is_empty() || frames_are_named) {
                 continue;
             }
-            match located(&name, &fixes, &self.yaws, self.options, warnings) {
+            let beside = Beside { receivers: &receivers, gyroscopes: &gyroscopes };
+            match located(&name, &fixes, &self.yaws, &beside, self.options, warnings) {
                 Ok(poses) => {
                     let (parent, child) = (TANGENT_PLANE.to_owned(), String::new());
                     self.poses.insert(PoseKey { topic: name, parent, child }, poses);
@@ -186,11 +189,46 @@ impl Collector<'_> {
     }
 }
 
+/// What a bag has beside the fixes of a topic.
+struct Beside<'a> {
+    /// Topics of fixes, this one among them.
+    receivers: &'a [String],
+    /// Topics of IMUs with yaw rates.
+    gyroscopes: &'a [String],
+}
+
+impl Beside<'_> {
+    /// What there is in place of a yaw, and what would do.
+    fn instead(&self) -> String {
+        let found = match (self.gyroscopes, self.receivers) {
+            ([], [_, _, ..]) => format!(
+                "there are several receivers, {}, whose direction from one to the other is not \
+                 taken for a yaw",
+                self.receivers.join(", ")
+            ),
+            ([], _) => "there is no sensor_msgs/Imu whose orientation changes".to_owned(),
+            (gyroscopes, _) => {
+                format!("{} has a yaw rate and no orientation that changes", gyroscopes.join(", "))
+            }
+        };
+        let gyroscope = match self.gyroscopes {
+            [] => String::new(),
+            [first, ..] => format!("; --pose-topic {first} takes its yaw alone, for x_r - x_l"),
+        };
+        format!(
+            "{found}: expected an orientation counted from east (REP-103), other poses \
+             (--pose-topic), or a table of x, y and yaw beside the track speeds \
+             (--columns){gyroscope}"
+        )
+    }
+}
+
 /// Poses at the fixes of a topic, with the yaw of the only IMU whose orientation changes.
 fn located(
     topic: &str,
     fixes: &[Fix],
     yaws: &BTreeMap<String, Vec<Yaw>>,
+    beside: &Beside,
     options: &RosbagOptions,
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Received<[f64; 3]>>, String> {
@@ -200,15 +238,15 @@ fn located(
     let (imu, yaws) = match changing.as_slice() {
         [(imu, yaws)] => (*imu, *yaws),
         [] => {
-            return Err(format!(
-                "{positions}: expected a sensor_msgs/Imu whose orientation changes, counted from \
-                 east (REP-103), or another topic with poses"
-            ));
+            return Err(format!("{positions}, and {}", beside.instead()));
         }
         several => {
             let names: Vec<&str> = several.iter().map(|(name, _)| name.as_str()).collect();
             let names = names.join(", ");
-            return Err(format!("{positions}, and several IMUs have one: {names}; name the topic"));
+            return Err(format!(
+                "{positions}, and several IMUs have one: {names}: expected one of them in the bag, \
+                 or other poses (--pose-topic)"
+            ));
         }
     };
     let clocks = [Clock::of(topic, fixes), Clock::of(imu, yaws)];

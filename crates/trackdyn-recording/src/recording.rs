@@ -36,7 +36,7 @@ pub use kept::Kept;
 pub(crate) use run::turn_sensor;
 pub use run::{Run, UncheckedRun};
 pub use source::{BagNames, Format, Source};
-pub use warning::Warning;
+pub use warning::{Warning, known_offset};
 
 /// Track speeds, poses and, where there are any, readings of an IMU.
 ///

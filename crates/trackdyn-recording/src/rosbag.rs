@@ -16,7 +16,6 @@
 
 use crate::doubt::Doubt;
 use crate::recording::{BagNames, Recording, Source, UncheckedRun, turn_sensor};
-use crate::unit::{self, SpeedUnit};
 use crate::{Error, Format};
 use std::path::Path;
 use trackdyn_core::{PerSide, Side};
@@ -85,15 +84,14 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
         names: Some(Box::new(collected.names.of_robot(options, radius))),
     };
     let joints = collected.names.joints;
-    let is_in_radians = options.speed_unit.is_none_or(|unit| unit == SpeedUnit::RadiansPerSecond);
-    let radius = radius.filter(|_| is_in_radians);
     let are_joints = options.twist_topic.is_none();
     let is_gyroscope = collected.runs.iter().all(is_yaw_alone);
     let kind = if options.left_signals.is_empty() { "joint" } else { "signal" };
     Recording::accepting(name, "unknown", collected.runs, source, warnings, &options.accepted)
         .map_err(|error| {
             if are_joints {
-                with_options(error, &joints, kind, radius, is_gyroscope)
+                let error = error.of_wheels(options.speed_unit, radius);
+                with_options(error, &joints, kind, is_gyroscope)
             } else {
                 error
             }
@@ -116,22 +114,15 @@ impl BagNames {
     }
 }
 
-/// An error with the options that help, by the joints of each side as they were taken and, where
-/// these are wheels, their radius, m. `is_yaw_alone` says that the poses are those of a gyroscope.
+/// An error with the options that help, by the joints of each side as they were taken.
+/// `is_yaw_alone` says that the poses are those of a gyroscope.
 fn with_options(
     error: Error,
     taken: &PerSide<Vec<String>>,
     kind: &str,
-    radius: Option<f64>,
     is_yaw_alone: bool,
 ) -> Error {
     let Error::Contradiction { path, doubt, remedy, .. } = error else { return error };
-    if let Doubt::Travel { ratio, .. } = doubt
-        && let Some((units, remedy)) = radius.and_then(|radius| unit::of_tracks(ratio, radius))
-    {
-        let doubt = Doubt::Travel { ratio, units: Some(units) };
-        return Error::Contradiction { path, doubt, remedy, joints: None };
-    }
     let reversed = |names: &[String]| -> Vec<String> {
         let of = |name: &String| match name.strip_prefix('-') {
             Some(bare) => bare.to_owned(),

@@ -243,7 +243,7 @@ impl fmt::Display for Warning {
             Self::JointJumps { joint, count, t } => write!(
                 f,
                 "{joint}: {count} jumps of its position by more than half a turn that are no \
-                 wraps, left as they are (the first at t = {t} s)"
+                 wraps, left as they are (the first at t = {t:.3} s)"
             ),
             Self::FromTwist { topic, separation } => from_twist(f, topic, *separation),
             Self::FromFixes { topic, imu } => write!(

@@ -4,8 +4,8 @@ use std::path::Path;
 use trackdyn_core::input::name_of;
 use trackdyn_estimate::odometry::ParameterSet;
 
-/// Names for files and folders: their stems, with the folder before them where two are alike, and a number
-/// where these are alike too.
+/// Names for files and folders: their own without an ending, with the folder before them where two
+/// are alike, and a number where these are alike too.
 pub(super) fn names<'a>(paths: impl Iterator<Item = &'a Path>) -> Vec<String> {
     let paths: Vec<&Path> = paths.collect();
     let text = |name: &str| -> String {

@@ -70,7 +70,7 @@ fn urdf_frames_and_gz_write_xml() {
     ] {
         let run = place.run(&format!("export {arguments}"));
         assert_eq!(run.status, 0, "{}", run.stderr);
-        assert!(run.stderr.contains(file), "{}", run.stderr);
+        assert!(run.stderr.contains(&format!("wrote {file}; auriga-alpha")), "{}", run.stderr);
         let xml = text(&place, file);
         let document = roxmltree::Document::parse(&xml).expect("XML");
         assert_eq!(document.root_element().tag_name().name(), root);
@@ -78,6 +78,29 @@ fn urdf_frames_and_gz_write_xml() {
             assert!(xml.contains(part), "{part} is not in:\n{xml}");
         }
     }
+}
+
+/// A log whose speeds are numbers of messages has no joints; one may have joints that are reversed.
+#[test]
+fn joints_that_the_log_does_not_tell_are_said() {
+    let place = with_kinematics("");
+    let of_map = text(&place, "kinematics.toml");
+    let bag = "[source.bag]\nwheel_radius_m = 0.165\ntrack_topics = [\"/status\"]\n";
+    place.write("kinematics.toml", &(of_map.clone() + bag));
+    let run = place.run("export ros2 kinematics.toml");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let said = run.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+    let part = "left joints left_wheel_joint; right joints right_wheel_joint: the usual names, for \
+                the log of kinematics.toml names no wheel joints";
+    assert!(said.contains(part), "{said}");
+    let bag = "[source.bag]\nleft_joints = [\"l\"]\nright_joints = [\"-r\"]\n";
+    place.write("kinematics.toml", &(of_map + bag));
+    let run = place.run("export ros2 kinematics.toml --wheel-radius 0.1");
+    let said = run.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+    let part = "--right-joint: r counts backwards in the log";
+    assert!(run.status != 0 && said.contains(part) && !said.contains("-r "), "{said}");
+    let run = place.run("export ros2 kinematics.toml --wheel-radius 0.1 --right-joint r");
+    assert_eq!(run.status, 0, "{}", run.stderr);
 }
 
 /// What the log says of the robot, where the parameters come from one.

@@ -149,7 +149,12 @@ fn nothing_open_is_nothing_to_plan() {
         let (place, run) = plan(status, members, "");
         assert_eq!(run.status, 0, "{}", run.stderr);
         assert!(run.stdout.contains("nothing to plan"), "{}", run.stdout);
+        assert!(run.stdout.contains("vehicle not told"), "{}", run.stdout);
         assert!(wrote_nothing(&place));
+        let text = diagnosis(status, members) + "[source]\nvehicle = \"crawler\"\n";
+        place.write("diagnosis.toml", &text);
+        let run = place.run("plan --diagnosis diagnosis.toml --out out");
+        assert!(run.stdout.ends_with("several effects; crawler\n"), "{}", run.stdout);
     }
 }
 

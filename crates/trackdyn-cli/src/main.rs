@@ -28,6 +28,7 @@ use plain::plain;
 use std::io::{Write, stderr, stdout};
 use std::process::ExitCode;
 use stderr::fail;
+use wrapped::in_lines;
 
 fn main() -> ExitCode {
     let arguments = match Arguments::read() {
@@ -35,10 +36,13 @@ fn main() -> ExitCode {
         Err(message) => {
             let exit = if message.use_stderr() { Exit::BadInput } else { Exit::Done };
             let text = message.render().to_string();
+            let is_error = message.use_stderr();
+            let shown = plain(&text);
+            let shown = if is_error { in_lines(&shown) } else { shown };
             // Nothing is left to do where even the message cannot be printed.
-            let _ = match plain(&text) {
+            let _ = match shown {
                 plain if plain == text => message.print(),
-                plain if message.use_stderr() => write!(stderr(), "{plain}"),
+                plain if is_error => write!(stderr(), "{plain}"),
                 plain => write!(stdout(), "{plain}"),
             };
             return exit.into();

@@ -10,9 +10,39 @@ pub fn wrapped(label: &str, text: &str) -> String {
     lines::wrapped(label, text, WIDTH)
 }
 
+/// A message in several lines, those of it broken that are too long.
+pub fn in_lines(text: &str) -> String {
+    let lines = text.split_inclusive('\n').map(|line| {
+        let bare = line.trim_end_matches('\n');
+        if bare.chars().count() <= WIDTH {
+            return line.to_owned();
+        }
+        let start = if bare.starts_with("error: ") { "error: ".len() } else { indent(bare) };
+        let broken = wrapped(&bare[..start], &bare[start..]);
+        if line.ends_with('\n') { broken } else { broken.trim_end().to_owned() }
+    });
+    lines.collect()
+}
+
+/// How many blanks a line begins with.
+fn indent(line: &str) -> usize {
+    line.len() - line.trim_start_matches(' ').len()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn only_long_lines_of_a_message_are_broken() {
+        let long = "word ".repeat(40);
+        let text = format!("error: {long}\n\nUsage:  two  blanks\n  {long}");
+        let broken = in_lines(&text);
+        assert!(broken.lines().all(|line| line.chars().count() <= WIDTH), "{broken}");
+        assert!(broken.contains("\n       word") && broken.contains("\n  word"), "{broken}");
+        assert!(broken.contains("\n\nUsage:  two  blanks\n"), "{broken}");
+        assert_eq!(in_lines("short\n"), "short\n");
+    }
 
     #[test]
     fn long_text_is_broken_between_words_below_its_beginning() {

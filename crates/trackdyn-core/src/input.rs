@@ -63,9 +63,31 @@ fn require_regular(file: &Metadata) -> io::Result<()> {
     Err(io::Error::new(ErrorKind::InvalidInput, format!("it is {found}: expected a file")))
 }
 
+/// The name of a file or folder for outputs: that of a file without its ending; that of a folder
+/// whole, for what follows a dot is no ending there.
+///
+/// ```
+/// use std::path::Path;
+/// use trackdyn_core::input::name_of;
+/// assert_eq!(name_of(Path::new("logs/yard.csv")), "yard");
+/// ```
+pub fn name_of(path: &Path) -> String {
+    let name = if path.is_dir() { path.file_name() } else { path.file_stem() };
+    name.unwrap_or_default().to_string_lossy().into_owned()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_dot_in_the_name_of_a_folder_begins_no_ending() {
+        let place = tempfile::tempdir().expect("a temporary folder");
+        let folder = place.path().join("offset_1.5");
+        std::fs::create_dir(&folder).expect("created");
+        assert_eq!(name_of(&folder), "offset_1.5");
+        assert_eq!(name_of(&folder.join("drive_1.5.mcap")), "drive_1.5");
+    }
 
     #[test]
     fn only_files_are_opened_and_only_small_ones_are_texts() {

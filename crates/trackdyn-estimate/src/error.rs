@@ -1,6 +1,8 @@
 //! Why parameters cannot be given.
 
 use crate::doubt::Doubt;
+use trackdyn_core::real;
+use trackdyn_recording::recording::known_offset;
 
 /// A recording that does not determine what was asked of it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -8,9 +10,11 @@ use crate::doubt::Doubt;
 pub enum Error {
     /// Too little in the recording.
     #[error(
-        "{found} segments: expected at least {needed} for {parameters} parameters, each between \
-         two poses that the track speeds cover by the same clock, in seconds, and of steady \
-         driving where --settle asks for it"
+        "{found} segments: expected at least {needed} for {parameters} parameters, that is, some \
+         {:.0} s more of driving with turns both ways; each segment is between two poses that the \
+         track speeds cover by the same clock, in seconds, and of steady driving where --settle \
+         asks for it",
+        (.each * real(.needed.saturating_sub(*.found))).ceil()
     )]
     TooFewSegments {
         /// Segments of the recording.
@@ -19,6 +23,23 @@ pub enum Error {
         needed: usize,
         /// Parameters that were asked for.
         parameters: usize,
+        /// Mean duration of a segment, s.
+        each: f64,
+    },
+    /// Tracks and poses that share no time.
+    #[error(
+        "tracks and poses share no time: in run {run} the first pose is stamped {offset:.3} s \
+         after the first reading of the tracks, by another clock{}. Such an offset is not \
+         searched: expected stamps by one clock, or the offset with --tau (where both were \
+         switched on together, --tau {offset:.1}), or of a bag the times of logging with \
+         --dated-by log",
+        known_offset(*.offset).map_or_else(String::new, |name| format!(" ({name})"))
+    )]
+    NoCommonTime {
+        /// The first such run.
+        run: i64,
+        /// Time by which its first pose is later, s.
+        offset: f64,
     },
     /// Too little in a table of operating points.
     #[error("{found} measurements: expected at least {needed} for {parameters} parameters")]

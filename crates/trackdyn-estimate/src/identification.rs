@@ -21,7 +21,7 @@ use crate::{Clock, SegmentOptions};
 use std::borrow::Cow;
 use std::ops::ControlFlow;
 use trackdyn_model::Kinematics;
-use trackdyn_recording::Recording;
+use trackdyn_recording::{Recording, Warning};
 
 /// How to identify.
 #[derive(Clone, Debug, PartialEq)]
@@ -225,6 +225,24 @@ struct Seen<'a> {
     weighting: Weighting,
 }
 
+/// Why there are too few segments.
+fn too_few(recording: &Recording, observations: &Observations, options: &Options) -> Error {
+    let apart = recording.warnings().iter().find_map(|warning| match warning {
+        Warning::NoCommonTime { run, offset } => Some((*run, *offset)),
+        _ => None,
+    });
+    if let Some((run, offset)) = apart.filter(|_| options.tau.is_none()) {
+        return Error::NoCommonTime { run, offset };
+    }
+    let parameters = Free::IcrsAndAlphas.count();
+    Error::TooFewSegments {
+        found: observations.len(),
+        needed: 4 * parameters,
+        parameters,
+        each: observations.mean_duration(),
+    }
+}
+
 impl<'a> Seen<'a> {
     fn of(recording: &'a Recording, options: &'a Options) -> Result<Self, Error> {
         let clock = Clock::of(recording, options.tau)?;
@@ -246,8 +264,7 @@ impl<'a> Seen<'a> {
         let observations = cut(&recording, &segments, options);
         let needed = 4 * Free::IcrsAndAlphas.count();
         if observations.len() < needed {
-            let parameters = Free::IcrsAndAlphas.count();
-            return Err(Error::TooFewSegments { found: observations.len(), needed, parameters });
+            return Err(too_few(&recording, &observations, options));
         }
         let noise = noise(&recording, tau);
         let spin_test = spin_test(&observations, options.gauge);

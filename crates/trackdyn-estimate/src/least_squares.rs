@@ -67,7 +67,8 @@ pub fn least_squares(
     let count = unknowns.count();
     if observations.len() < 4 * count {
         let found = observations.len();
-        return Err(Error::TooFewSegments { found, needed: 4 * count, parameters: count });
+        let (needed, each) = (4 * count, observations.mean_duration());
+        return Err(Error::TooFewSegments { found, needed, parameters: count, each });
     }
     let whitener = Whitener::new(weighting, observations);
     let lanes = Lanes::new(observations);

@@ -3,8 +3,8 @@
 use crate::{Blocks, Extent, Segment, SegmentOptions, segments};
 use std::ops::Range;
 use std::sync::Arc;
-use trackdyn_core::PerSide;
 use trackdyn_core::frames::ros_twist_from_paper;
+use trackdyn_core::{PerSide, real};
 use trackdyn_model::Kinematics;
 use trackdyn_recording::hold::{held, travelled};
 use trackdyn_recording::{Recording, Run, TrackSample};
@@ -222,6 +222,16 @@ impl Observations {
             end - segments.len()..end
         });
         ranges.collect()
+    }
+
+    /// Mean duration of a segment, s; the usual one where there is none.
+    pub(crate) fn mean_duration(&self) -> f64 {
+        let total: f64 = self.segments.iter().map(|segment| segment.duration).sum();
+        if self.is_empty() {
+            SegmentOptions::default().minimum_duration
+        } else {
+            total / real(self.len())
+        }
     }
 
     /// Stamp of the first reading of a run, s.

@@ -37,6 +37,9 @@ const MIN_YAW: f64 = std::f64::consts::PI;
 /// odometry no better than a guess does.
 const MAX_HALF_WIDTH: f64 = 0.25;
 
+/// Share of the turning against the tracks that is more than noise.
+const MIN_AGAINST: f64 = 0.2;
+
 /// Reweighting has settled long before.
 const ITERATIONS: usize = 50;
 
@@ -166,12 +169,25 @@ impl Separation {
                  gyroscope's axes and at slipping wheels",
                 gap.value, gap.low, gap.high
             ))),
+            _ if against(turns) >= MIN_AGAINST => Err(refused(format!(
+                "{:.0} % of the turning goes against the tracks: yaw falls where the right track \
+                 is faster: expected yaw that is positive counter-clockwise, and v_right > v_left \
+                 there: a sign is wrong there, or left and right are swapped",
+                100.0 * against(turns)
+            ))),
             _ => Err(refused(format!(
                 "yaw does not follow the tracks: {gap:.3} m, with an interval that holds no \
                  distance of any robot"
             ))),
         }
     }
+}
+
+/// Share of the turning that goes against the tracks.
+fn against(turns: &[Turn]) -> f64 {
+    let sum = |of: &dyn Fn(&Turn) -> f64| turns.iter().map(of).sum::<f64>();
+    let against = sum(&|turn| (-turn.yaw * turn.difference.signum()).max(0.0));
+    against / sum(&|turn| turn.yaw.abs())
 }
 
 fn refused(reason: String) -> Error {
@@ -237,6 +253,9 @@ mod tests {
         assert!(few.gap.low < 1.02 && 1.02 < few.gap.high, "{few:?}");
         // one degree of freedom: t₀.₉₇₅(1) = 12.7
         assert!(few.gap.half_width() > 0.06, "{few:?}");
+        let against = Separation::of_points(&[point(spins[0]), point((-0.29, 0.57))]);
+        let against = against.expect_err("both turn left").to_string();
+        assert!(against.contains("50 % of the turning goes against the tracks"), "{against}");
         let one = Separation::of_points(&[point(spins[0])]);
         assert!(matches!(one, Err(Error::NotEstimable { .. })));
     }

@@ -48,6 +48,7 @@ fn class(error: &Error) -> &'static str {
         | Error::FastestSpeed { .. }
         | Error::Export(_)
         | Error::LogName { .. }
+        | Error::ReversedJoint { .. }
         | Error::NoWheelRadius { .. } => "SettingError",
         Error::Case { .. } | Error::Residuals(_) => "InputError",
         Error::Identify { .. } => "IdentifyError",

@@ -21,8 +21,9 @@ pub(crate) struct Attitude {
     /// Those that are tilted by more than a robot can be, and those of them upside down.
     tilted: u64,
     inverted: u64,
-    /// Those that are turned about the y axis against the first.
+    /// Those that are turned about the y axis against the first, and those of them that are tilted.
     pitched: u64,
+    pitched_far: u64,
     first: Option<[f64; 4]>,
 }
 
@@ -42,7 +43,9 @@ impl Attitude {
         let turned = turned(*self.first.get_or_insert(quaternion), quaternion);
         let [roll, pitch, yaw] = turned.map(f64::abs);
         let others = roll.max(yaw);
-        self.pitched += u64::from(pitch > MIN_PITCH && pitch > MIN_PITCH_RATIO * others);
+        let is_pitched = pitch > MIN_PITCH && pitch > MIN_PITCH_RATIO * others;
+        self.pitched += u64::from(is_pitched);
+        self.pitched_far += u64::from(is_pitched && upright < MIN_UPRIGHT);
     }
 
     /// How many poses are no robot's, where these are too many for single wrong ones, and which
@@ -50,7 +53,9 @@ impl Attitude {
     pub(crate) fn out_of_plane(&self) -> Option<(u64, Axes)> {
         let are_many = |count: u64| MAX_PORTION * count > self.all;
         if are_many(self.tilted) {
-            let is_inverted = 2 * self.inverted > self.tilted;
+            // a camera that turns about its y axis is upside down after half a turn
+            let is_camera = 2 * self.pitched_far > self.tilted;
+            let is_inverted = 2 * self.inverted > self.tilted && !is_camera;
             return Some((self.tilted, if is_inverted { Axes::Down } else { Axes::Camera }));
         }
         are_many(self.pitched).then_some((self.pitched, Axes::Camera))
@@ -105,6 +110,14 @@ mod tests {
         };
         // both frames are those of a camera
         let found = driven(|half| [0.0, half.sin(), 0.0, half.cos()]);
+        assert!(matches!(found, Some((count, Axes::Camera)) if count > 50), "{found:?}");
+        // and turn all around
+        let mut around = Attitude::default();
+        for step in 0..100 {
+            let (sin, cos) = (0.1 * f64::from(step)).sin_cos();
+            around.note([0.0, sin, 0.0, cos]);
+        }
+        let found = around.out_of_plane();
         assert!(matches!(found, Some((count, Axes::Camera)) if count > 50), "{found:?}");
         // yaw, as of a robot
         assert_eq!(driven(|half| [0.0, 0.0, half.sin(), half.cos()]), None);

@@ -14,7 +14,7 @@ pub enum DoubtKind {
     Travel,
     /// [`Doubt::Stamps`], [`Doubt::CoarseStamps`].
     Stamps,
-    /// [`Doubt::YawInDegrees`], [`Doubt::TurnInDegrees`].
+    /// [`Doubt::YawInDegrees`], [`Doubt::YawOfCompass`], [`Doubt::TurnInDegrees`].
     YawUnit,
     /// [`Doubt::ConstantOrientation`].
     Orientation,
@@ -23,7 +23,7 @@ pub enum DoubtKind {
     /// [`Doubt::Reversed`], [`Doubt::BothReversed`], [`Doubt::Swapped`], [`Doubt::Backwards`],
     /// [`Doubt::NotSides`].
     Signs,
-    /// [`Doubt::DeadEncoder`].
+    /// [`Doubt::DeadEncoder`], [`Doubt::StoodStill`].
     DeadEncoder,
     /// [`Doubt::StuckPoses`].
     StuckPoses,
@@ -113,6 +113,8 @@ pub enum Doubt {
     },
     /// Yaw in degrees.
     YawInDegrees,
+    /// Yaw as a compass shows it: clockwise from the y axis, which is north.
+    YawOfCompass,
     /// Poses whose orientation never changes while the tracks turn the robot.
     ConstantOrientation {
         /// Way that one track ran more than the other, m.
@@ -154,6 +156,11 @@ pub enum Doubt {
         side: Option<Side>,
         /// The speed that it shows, m/s.
         speed: f64,
+    },
+    /// Tracks that never move, and poses whose only motion is noise.
+    StoodStill {
+        /// Time of all runs, s.
+        duration: f64,
     },
     /// Poses that stay where they are while the tracks drive.
     StuckPoses {
@@ -200,6 +207,11 @@ impl fmt::Display for Doubt {
             Self::YawInDegrees => {
                 write!(f, "yaw follows the path of the poses in degrees, and not in radians")
             }
+            Self::YawOfCompass => write!(
+                f,
+                "yaw follows the path of the poses clockwise from the y axis: the heading of a \
+                 compass, with x east and y north"
+            ),
             Self::ConstantOrientation { turning } => write!(
                 f,
                 "the orientation never changes, while one track runs {turning:.1} m more than the \
@@ -250,6 +262,11 @@ impl fmt::Display for Doubt {
                      if it did: a dead encoder, or a number that is no measured speed"
                 )
             }
+            Self::StoodStill { duration } => write!(
+                f,
+                "the robot only stands still, for {duration:.0} s: both tracks are at 0 m/s all \
+                 the time, and the poses show nothing but noise"
+            ),
             Self::StuckPoses { travelled, extent } => write!(
                 f,
                 "the poses stay within {extent:.3} m and do not turn, while the tracks run \
@@ -279,7 +296,9 @@ impl Doubt {
         match self {
             Self::Travel { .. } | Self::Jumps { .. } => DoubtKind::Travel,
             Self::Stamps { .. } | Self::CoarseStamps { .. } => DoubtKind::Stamps,
-            Self::YawInDegrees | Self::TurnInDegrees { .. } => DoubtKind::YawUnit,
+            Self::YawInDegrees | Self::YawOfCompass | Self::TurnInDegrees { .. } => {
+                DoubtKind::YawUnit
+            }
             Self::ConstantOrientation { .. } => DoubtKind::Orientation,
             Self::OutOfPlane { .. } => DoubtKind::OutOfPlane,
             Self::Reversed(_)
@@ -287,7 +306,7 @@ impl Doubt {
             | Self::Swapped
             | Self::Backwards
             | Self::NotSides { .. } => DoubtKind::Signs,
-            Self::DeadEncoder { .. } => DoubtKind::DeadEncoder,
+            Self::DeadEncoder { .. } | Self::StoodStill { .. } => DoubtKind::DeadEncoder,
             Self::StuckPoses { .. } => DoubtKind::StuckPoses,
         }
     }
@@ -309,6 +328,10 @@ impl Doubt {
             }
             Self::YawInDegrees => {
                 "expected yaw in rad; of one table, --columns yaw=COLUMN:deg reads degrees"
+            }
+            Self::YawOfCompass => {
+                "expected yaw in rad, counter-clockwise from the x axis; of one table, --columns \
+                 yaw=COLUMN:compass reads degrees of a compass"
             }
             Self::TurnInDegrees { .. } => {
                 "expected yaw in rad; --gyro-unit deg/s reads a gyroscope in degrees per second"
@@ -342,6 +365,10 @@ impl Doubt {
             Self::DeadEncoder { .. } => {
                 "expected measured speeds of both sides; of a bag, --left-joint, --right-joint and \
                  --joint-signal choose others"
+            }
+            Self::StoodStill { .. } => {
+                "expected a log of driving: turns on the spot, two each way, slowly and fast, \
+                 curves both ways, and 10 m straight, forward and back"
             }
             Self::StuckPoses { .. } => {
                 "expected poses of the robot while it drives; of a bag, --pose-topic or \

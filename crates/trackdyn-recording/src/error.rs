@@ -1,6 +1,8 @@
 //! What can go wrong with a recording.
 
 use crate::doubt::Doubt;
+use crate::unit::{self, SpeedUnit};
+use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use trackdyn_core::PerSide;
 use trackdyn_core::document::DocumentError;
@@ -110,6 +112,18 @@ pub enum Error {
         /// Which options, and what was expected.
         problem: String,
     },
+    /// Yaw rates of steady points that are no radians per second.
+    #[error(
+        "{}: yaw_rate is {per_speed:.1} for each m/s that one track is faster than the other, more \
+         than rad/s can be: degrees per second; expected rad/s, {:.4} times these",
+        path.display(), TAU / 360.0
+    )]
+    PointsInDegrees {
+        /// The table.
+        path: PathBuf,
+        /// The median of all points, in what should be rad/m.
+        per_speed: f64,
+    },
     /// Tracks and poses that contradict each other.
     #[error("{}: {doubt}: {remedy}; --accept {} reads it all the same, where you know better",
         path.display(), doubt.kind().name())]
@@ -152,6 +166,23 @@ impl Error {
     pub(crate) fn contradiction(path: &Path, doubt: Doubt) -> Self {
         let remedy = doubt.remedy();
         Self::Contradiction { path: path.to_owned(), doubt, remedy, joints: None }
+    }
+
+    /// This error where speeds are taken for those of wheels of this radius, m, in this unit; none:
+    /// rad/s.
+    pub(crate) fn of_wheels(self, unit: Option<SpeedUnit>, radius: Option<f64>) -> Self {
+        match (self, radius) {
+            (
+                Self::Contradiction { path, doubt: Doubt::Travel { ratio, .. }, joints, .. },
+                Some(radius),
+            ) => {
+                let unit = unit.unwrap_or(SpeedUnit::RadiansPerSecond);
+                let (units, remedy) = unit::of_wheels(ratio, unit, radius);
+                let doubt = Doubt::Travel { ratio, units };
+                Self::Contradiction { path, doubt, remedy, joints }
+            }
+            (error, _) => error,
+        }
     }
 }
 

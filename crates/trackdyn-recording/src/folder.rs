@@ -70,6 +70,7 @@ pub fn read_by(folder: &Path, options: &TableOptions) -> Result<Recording, Error
     }
     let Manifest { name, robot, noise, pose_frame } = manifest;
     Recording::accepting(name, robot, runs, source, warnings, &options.accepted)
+        .map_err(|error| error.of_wheels(options.speed_unit, options.wheel_radius))
         .map(|recording| recording.with_stated_noise(noise).with_pose_frame(pose_frame))
 }
 

@@ -4,6 +4,7 @@ use crate::Error;
 use crate::folder::MANIFEST;
 use crate::table::Table;
 use std::path::{Path, PathBuf};
+use trackdyn_core::robust::median;
 
 const COLUMNS: [&str; 5] = ["v_left", "v_right", "v_forward", "v_lateral", "yaw_rate"];
 
@@ -46,7 +47,8 @@ impl OperatingPoints {
     ///
     /// # Errors
     /// [`Error::Header`], [`Error::Cell`] with line and column (also for NaN, an infinity, or an
-    /// empty track speed), [`Error::Empty`] without rows.
+    /// empty track speed), [`Error::Empty`] without rows, [`Error::PointsInDegrees`] for yaw rates
+    /// that are no radians.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let mut table = Table::open(path, &COLUMNS).map_err(|error| match error {
             Error::Header { path, line, found, expected } => {
@@ -78,7 +80,24 @@ impl OperatingPoints {
             let message = "no rows below the header".to_owned();
             return Err(Error::Empty { path: path.to_owned(), message });
         }
+        if let Some(per_speed) = turn_in_degrees(&points) {
+            return Err(Error::PointsInDegrees { path: path.to_owned(), per_speed });
+        }
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         Ok(Self { name, points })
     }
+}
+
+/// Least yaw rate per m/s that one track is faster than the other that is in degrees: of ICRs 4.8 m
+/// apart; in radians, of ICRs 83 mm apart, which no robot has.
+const MIN_DEGREES: f64 = 12.0;
+
+/// Yaw rate per m/s that one track is faster than the other, where it is more than radians can be.
+fn turn_in_degrees(points: &[OperatingPoint]) -> Option<f64> {
+    let ratios = points.iter().filter_map(|point| {
+        let difference = point.v_right - point.v_left;
+        Some((point.yaw_rate? / difference).abs()).filter(|_| difference != 0.0)
+    });
+    let mut ratios: Vec<f64> = ratios.collect();
+    median(&mut ratios).filter(|per_speed| *per_speed > MIN_DEGREES)
 }

@@ -16,7 +16,6 @@
 
 use crate::doubt::Doubt;
 use crate::recording::{BagNames, PoseAxes, Recording, Source, UncheckedRun, turn_sensor};
-use crate::unit::{self, SpeedUnit};
 use crate::{Error, Format};
 use std::path::Path;
 use trackdyn_core::{PerSide, Side};
@@ -88,16 +87,14 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
     // Words of their names tell the sides where no option does.
     let are_named = options.left_joints.is_empty() && options.right_joints.is_empty();
     let axes = options.pose_axes;
-    let is_in_radians = options.speed_unit.is_none_or(|unit| unit == SpeedUnit::RadiansPerSecond);
-    let radius = radius.filter(|_| is_in_radians);
     let are_joints = options.twist_topic.is_none();
     let is_gyroscope = collected.runs.iter().all(is_yaw_alone);
     let kind = if options.left_signals.is_empty() { "joint" } else { "signal" };
     Recording::accepting(name, "unknown", collected.runs, source, warnings, &options.accepted)
         .map_err(|error| {
             if are_joints {
-                let told = Told { kind, radius, is_gyroscope, are_named, axes };
-                with_options(error, &joints, &told)
+                let told = Told { kind, is_gyroscope, are_named, axes };
+                with_options(error.of_wheels(options.speed_unit, radius), &joints, &told)
             } else {
                 error
             }
@@ -124,8 +121,6 @@ impl BagNames {
 struct Told<'a> {
     /// What the sides are made of: joints or signals.
     kind: &'a str,
-    /// Radius of the wheels, m, where speeds are theirs in rad/s.
-    radius: Option<f64>,
     /// Whether the poses are the yaw of a gyroscope alone.
     is_gyroscope: bool,
     /// Whether joints were taken by the words of their names.
@@ -136,14 +131,8 @@ struct Told<'a> {
 
 /// An error with the options that help, by the joints of each side as they were taken.
 fn with_options(error: Error, taken: &PerSide<Vec<String>>, told: &Told) -> Error {
-    let Told { kind, radius, is_gyroscope, are_named, axes } = *told;
+    let Told { kind, is_gyroscope, are_named, axes } = *told;
     let Error::Contradiction { path, doubt, remedy, .. } = error else { return error };
-    if let Doubt::Travel { ratio, .. } = doubt
-        && let Some((units, remedy)) = radius.and_then(|radius| unit::of_tracks(ratio, radius))
-    {
-        let doubt = Doubt::Travel { ratio, units: Some(units) };
-        return Error::Contradiction { path, doubt, remedy, joints: None };
-    }
     let reversed = |names: &[String]| -> Vec<String> {
         let of = |name: &String| match name.strip_prefix('-') {
             Some(bare) => bare.to_owned(),
@@ -181,7 +170,7 @@ fn with_options(error: Error, taken: &PerSide<Vec<String>>, told: &Told) -> Erro
                 )
             } else if axes == PoseAxes::NorthEastDown {
                 format!("leave out --pose-axes ned, or swap the sides by {left} {right}")
-            } else if are_named && told.kind == "joint" {
+            } else if are_named && kind == "joint" {
                 format!(
                     "the names of the joints tell left from right, so poses count yaw clockwise, \
                      as north-east-down does: --pose-axes ned reads them. Where the names are \

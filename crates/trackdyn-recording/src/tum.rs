@@ -49,6 +49,7 @@ pub fn read_by(
     let source =
         Source { format: Format::Tum, path: Some(trajectory.to_owned()), ..Source::computed() };
     Recording::accepting(name, robot, runs, source, warnings, &options.accepted)
+        .map_err(|error| error.of_wheels(options.speed_unit, options.wheel_radius))
 }
 
 /// Reads a trajectory alone, as it stands in the file.

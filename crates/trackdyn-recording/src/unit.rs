@@ -174,7 +174,7 @@ const MIN_CONTRAST: f64 = 1.15;
 /// What ways of the tracks that are so many times those of the poses may mean besides units, where
 /// speeds are taken for those of wheels of a radius, m: speeds of the tracks themselves. Names what
 /// stands in place of what, and the options that read it.
-pub(crate) fn of_tracks(ratio: f64, radius: f64) -> Option<(&'static str, String)> {
+fn of_tracks(ratio: f64, radius: f64) -> Option<(&'static str, String)> {
     // Speeds of the tracks are multiplied by the radius once too often.
     let off = (ratio / radius).max(radius / ratio);
     let unit = error(ratio).unwrap_or(f64::INFINITY);
@@ -198,6 +198,55 @@ pub(crate) fn of_tracks(ratio: f64, radius: f64) -> Option<(&'static str, String
         return Some((both, format!("{of_tracks}, --speed-unit {turns} reads turns")));
     }
     Some((both, of_tracks))
+}
+
+/// Units in which a radius is given by mistake: its name, numbers per metre, what stands in place
+/// of what.
+const OF_RADII: [(&str, f64, &str); 3] =
+    [("mm", 1000.0, MIXED[1].1), ("cm", 100.0, MIXED[2].1), ("inches", 39.37, MIXED[3].1)];
+
+/// What ways of the tracks that are so many times those of the poses mean where speeds are taken
+/// for those of wheels, in this unit and of this radius, m. Names what stands in place of what, and
+/// the options that read it; they can all be given beside the radius.
+pub(crate) fn of_wheels(
+    ratio: f64,
+    unit: SpeedUnit,
+    radius: f64,
+) -> (Option<&'static str>, String) {
+    let off = |ratio: f64| ratio.max(1.0 / ratio);
+    // no wheel has such a radius, whatever else is wrong
+    let is_large = radius > RADII[1];
+    let of_radius = OF_RADII
+        .into_iter()
+        .filter(|(_, per_metre, _)| is_large && off(ratio / per_metre) <= MAX_ERROR);
+    let nearest =
+        of_radius.min_by(|(_, a, _), (_, b, _)| off(ratio / a).total_cmp(&off(ratio / b)));
+    if let Some((name, per_metre, units)) = nearest {
+        let metres = radius / per_metre;
+        let text = format!(
+            "--wheel-radius {radius} looks as if it were given in {name}: expected metres, \
+             {metres:.3}"
+        );
+        return (Some(units), text);
+    }
+    if unit == SpeedUnit::RadiansPerSecond
+        && let Some((units, text)) = of_tracks(ratio, radius)
+    {
+        return (Some(units), text);
+    }
+    // speeds in another unit are multiplied by this factor
+    let error = |other: SpeedUnit| off(ratio * other.factor() / unit.factor());
+    let others = SpeedUnit::ALL.into_iter().filter(|other| other.is_of_wheels() && *other != unit);
+    let other = others.min_by(|a, b| error(*a).total_cmp(&error(*b)));
+    let mut text = match other.filter(|other| error(*other) <= MAX_ERROR) {
+        Some(other) => format!("read them with --speed-unit {other}"),
+        None => format!("expected speeds of the wheels in {unit}; --speed-unit takes others"),
+    };
+    let fitting = radius / ratio;
+    if (RADII[0]..=RADII[1]).contains(&fitting) {
+        let _ = write!(text, "; --wheel-radius {fitting:.3} would explain it");
+    }
+    (mixed_up(ratio), text + "; --wheel-radius is in m per radian, with any gear")
 }
 
 fn nearest(size: f64) -> Option<(f64, &'static str, Option<SpeedUnit>)> {
@@ -240,5 +289,34 @@ mod tests {
         assert!(options.contains("--speed-unit m/s") && !options.contains("turns"), "{options}");
         assert_eq!(of_tracks(1.0 / 6.2, 0.05), None);
         assert_eq!(of_tracks(9.5, 0.165), None);
+    }
+
+    #[test]
+    fn a_radius_in_another_unit_is_named_with_the_metres() {
+        let radians = SpeedUnit::RadiansPerSecond;
+        for (ratio, radius, unit) in
+            [(999.7, 165.0, "mm"), (101.0, 16.5, "cm"), (39.4, 6.5, "inches")]
+        {
+            let (units, text) = of_wheels(ratio, radians, radius);
+            assert!(units.is_some_and(|units| units.ends_with("in place of metres")), "{units:?}");
+            let expected = format!("--wheel-radius {radius} looks as if it were given in {unit}");
+            assert!(text.starts_with(&expected) && text.ends_with("metres, 0.165"), "{text}");
+        }
+    }
+
+    /// A unit of tracks is refused beside a radius.
+    #[test]
+    fn beside_a_radius_only_units_of_wheels_are_named() {
+        let (radians, turns) = (SpeedUnit::RadiansPerSecond, SpeedUnit::TurnsPerMinute);
+        let (_, text) = of_wheels(9.3, radians, 0.165);
+        assert!(text.contains("--speed-unit rpm;"), "{text}");
+        let (_, text) = of_wheels(1.0 / 9.3, turns, 0.165);
+        assert!(text.contains("--speed-unit rad/s;"), "{text}");
+        for ratio in [1000.0, 100.0, 3.6] {
+            let (_, text) = of_wheels(ratio, radians, 0.3);
+            assert!(text.starts_with("expected speeds of the wheels in rad/s"), "{text}");
+        }
+        let (_, text) = of_wheels(3.6, radians, 0.594);
+        assert!(text.contains("--wheel-radius 0.165 would explain it"), "{text}");
     }
 }

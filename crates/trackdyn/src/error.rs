@@ -353,6 +353,18 @@ pub enum Error {
         /// Why it is refused.
         reason: String,
     },
+    /// A joint that counts backwards in the log that the parameters come from.
+    #[error(
+        "{setting}: {name} counts backwards in the log that the parameters come from, and a \
+         controller reverses no joint: expected the name of a joint that counts forwards, or, once \
+         its driver is mended to count so, {name} itself"
+    )]
+    ReversedJoint {
+        /// The setting that takes the joints of that side.
+        setting: &'static str,
+        /// The joint, without a sign.
+        name: String,
+    },
     /// A radius that neither a setting nor the log tells.
     #[error(
         "wheel_radius: {file} does not tell it: expected the belt travel in m per radian of the \
@@ -385,7 +397,8 @@ impl Error {
         match self {
             Self::NotABag { setting, .. }
             | Self::GeneratedOnly { setting, .. }
-            | Self::LogName { setting, .. } => Some(setting),
+            | Self::LogName { setting, .. }
+            | Self::ReversedJoint { setting, .. } => Some(setting),
             Self::TracksNotNeeded { .. } => Some("tracks"),
             Self::Runs(_) => Some("runs"),
             Self::Time(_) => Some("time"),

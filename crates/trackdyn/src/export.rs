@@ -170,6 +170,11 @@ impl Export {
         &self.provenance.source
     }
 
+    /// The vehicle whose parameters they are, in words.
+    pub fn vehicle(&self) -> &str {
+        &self.provenance.vehicle
+    }
+
     /// How wrong odometry is with these parameters, from an odometry file (schema
     /// `trackdyn.odometry/1`) of a replay with them, best of driving that they were not fitted to.
     ///

@@ -20,6 +20,7 @@ use crate::recording::{PointsTable, Topic};
 use crate::{Change, Error, Gauge, Parameters, Part, Provenance, ReadOptions, Recording};
 use choice::Choice;
 use std::path::{Path, PathBuf};
+use trackdyn_core::input::name_of;
 use trackdyn_recording::rosbag;
 use trackdyn_recording::{Format, Recording as Motion, tum};
 
@@ -145,7 +146,7 @@ impl Inspection {
 
     fn of_trajectory(path: &Path, settings: &InspectSettings) -> Result<Self, Error> {
         let poses = tum::read_poses(path)?.samples;
-        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        let name = name_of(path);
         let content = Content::Poses(Rows::of(&[poses.iter().map(|pose| pose.t).collect()]));
         let mut of = Self::new(&name, content, settings);
         of.lacks.push(Lack::Tracks);
@@ -175,7 +176,7 @@ impl Inspection {
                 of
             }
             Err((options, reason)) => {
-                let name = path.file_stem().unwrap_or_default().to_string_lossy();
+                let name = name_of(path);
                 let mut of = Self::new(&name, Content::Unread(reason.clone()), settings);
                 of.options = options;
                 of.findings = seen.warnings.into_iter().map(Finding::Reading).collect();

@@ -77,8 +77,17 @@ impl OpenQuestions {
 
     /// The command line that made the diagnosis; none where its file does not tell.
     pub fn command(&self) -> Option<&str> {
+        self.of_source("command")
+    }
+
+    /// The name of the vehicle that was diagnosed; none where its file does not tell.
+    pub fn vehicle(&self) -> Option<&str> {
+        self.of_source("vehicle")
+    }
+
+    fn of_source(&self, key: &str) -> Option<&str> {
         let source = self.file.source.as_ref()?;
-        source.get("command")?.as_str().filter(|command| !command.is_empty())
+        source.get(key)?.as_str().filter(|text| !text.is_empty())
     }
 
     /// The questions.

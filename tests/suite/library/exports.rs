@@ -63,6 +63,7 @@ fn exports_take_joints_radius_and_frame_from_the_log() {
     assert_eq!(wheels.joints.right[0].to_string(), "right_wheel");
     assert_eq!(wheels.wheel_radius, RADIUS);
     assert_eq!(wheels.from_log.len(), 3, "{:?}", wheels.from_log);
+    assert!(wheels.usual.is_empty(), "{:?}", wheels.usual);
     let base = export.base_frame(None).expect("a name");
     assert_eq!(base.name.to_string(), "base_footprint");
     // what is chosen counts
@@ -109,5 +110,5 @@ fn parameters_of_no_log_need_a_radius() {
     let chosen = WheelChoices { wheel_radius: Some(0.1), ..WheelChoices::default() };
     let wheels = export.wheels(&chosen).expect("the usual names");
     assert_eq!(wheels.joints.left[0].to_string(), "left_wheel_joint");
-    assert!(wheels.from_log.is_empty());
+    assert!(wheels.from_log.is_empty() && wheels.usual.is_empty());
 }

@@ -97,6 +97,22 @@ fn a_dead_encoder_is_named() {
     assert!(matches!(doubt, Doubt::DeadEncoder { side: None, .. }), "{text}");
 }
 
+/// A log in which only the noise of the poses moves.
+#[test]
+fn a_robot_that_only_stands_still_is_named() {
+    let speeds = PerSide::new(0.0, 0.0);
+    let still = || driven(vec![vec![Stretch { duration: 60.0, speeds }]]);
+    let runs = change(still(), |run| {
+        for reading in &mut run.tracks.samples {
+            (reading.v_left, reading.v_right) = (0.0, 0.0);
+        }
+    });
+    let (doubt, text) = refused(runs.clone());
+    assert!(matches!(doubt, Doubt::StoodStill { .. }), "{text}");
+    assert!(text.contains("only stands still") && text.contains("turns on the spot"), "{text}");
+    assert!(accepting(runs, &[DoubtKind::DeadEncoder]).is_ok());
+}
+
 #[test]
 fn a_track_that_stands_is_no_dead_encoder() {
     let mut random = ChaCha8Rng::seed_from_u64(3);
@@ -529,6 +545,22 @@ fn headings_in_degrees_are_refused() {
     let (doubt, text) = refused(runs);
     assert!(matches!(doubt, Doubt::TurnInDegrees { .. }), "{text}");
     assert!(text.contains("--gyro-unit deg/s"), "{text}");
+}
+
+/// A heading clockwise from north, in degrees as it was written and in radians as `:deg` makes it.
+#[test]
+fn headings_of_a_compass_are_named() {
+    for (per_radian, wraps) in [(180.0 / PI, true), (180.0 / PI, false), (1.0, false)] {
+        let runs = change(rows(), |run| {
+            for sample in &mut run.poses.samples {
+                let heading = per_radian * (0.5 * PI - sample.pose.yaw);
+                sample.pose.yaw = if wraps { heading.rem_euclid(360.0) } else { heading };
+            }
+        });
+        let (doubt, text) = refused(runs);
+        assert_eq!(doubt, Doubt::YawOfCompass, "{per_radian}");
+        assert!(text.contains("--columns yaw=COLUMN:compass"), "{text}");
+    }
 }
 
 #[test]

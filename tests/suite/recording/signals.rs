@@ -232,6 +232,9 @@ fn a_wrong_path_or_unit_says_what_is_expected() {
         ..RosbagOptions::default()
     };
     assert!(refused(&of_twist).contains("expected without --twist-topic"));
+    // without them, the topics are named that may have them
+    let text = refused(&RosbagOptions::default());
+    assert!(text.contains(":FIELD --right-signal /"), "{text}");
     let text = refused(&RosbagOptions { wheel_radius: None, ..of_turns() });
     assert!(text.contains("--wheel-radius METRES"), "{text}");
     let both = RosbagOptions { left_joints: vec!["left".to_owned()], ..of_turns() };

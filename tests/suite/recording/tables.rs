@@ -88,4 +88,7 @@ fn operating_points_that_do_not_fit_are_pointed_at() {
         "{text}"
     );
     assert!(refusal("").ends_with("no rows below the header"));
+    // 32 degrees per second in place of 0.56 rad/s
+    let text = refusal("-0.29,0.29,,,32.0\n0.29,-0.29,,,-32.1\n0.3,0.3,,,0.1\n");
+    assert!(text.contains("degrees per second; expected rad/s, 0.0175 times these"), "{text}");
 }

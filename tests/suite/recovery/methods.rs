@@ -128,5 +128,31 @@ fn too_short_recordings_are_refused() {
     let weighting = Weighting::Distance { lever: LEVER };
     let refused =
         least_squares(&observe(&short), &start(), &Free::Icrs.into(), &weighting, Loss::Squares);
-    assert!(matches!(refused, Err(Error::TooFewSegments { .. })), "{refused:?}");
+    let Err(Error::TooFewSegments { found, needed, each, .. }) = refused else {
+        panic!("{refused:?}")
+    };
+    assert!(found < needed && (0.2..1.0).contains(&each), "{found} of {needed}, {each} s each");
+    let error = Error::TooFewSegments { found: 15, needed: 20, parameters: 5, each: 0.5 };
+    assert!(error.to_string().contains("some 3 s more of driving"), "{error}");
+}
+
+/// Poses by a clock that is farther off than offsets are searched.
+#[test]
+fn poses_of_another_time_are_told_with_their_offset() {
+    let runs = record(vec![vec![stretch(20.0, 0.1, 0.5)]], 8);
+    let runs = runs.runs().iter().cloned().map(|run| {
+        let mut rows = run.into_rows();
+        for sample in &mut rows.poses.samples {
+            sample.t += 400.0;
+        }
+        rows
+    });
+    let source = trackdyn_recording::Source::computed();
+    let apart =
+        trackdyn_recording::Recording::new("apart", "robot", runs.collect(), source, Vec::new())
+            .expect("usable");
+    let options = trackdyn_estimate::identification::Options::new(GAUGE);
+    let refused = trackdyn_estimate::identification::icrs_alone(&apart, &options);
+    let Err(error @ Error::NoCommonTime { .. }) = refused else { panic!("{refused:?}") };
+    assert!(error.to_string().contains("--tau 400.0"), "{error}");
 }

@@ -91,6 +91,14 @@ impl Ros2Options {
             let taken = wheels.from_log.join("; ");
             note(format_args!("{taken}: those of the log of {}", export.name()));
         }
+        if !wheels.usual.is_empty() {
+            let usual = wheels.usual.join("; ");
+            note(format_args!(
+                "{usual}: the usual names, for the log of {} names no wheel joints; the robot may \
+                 have others (--left-joint, --right-joint)",
+                export.name()
+            ));
+        }
         Ok(Ros2Settings {
             frames: self.frames.settings(export)?,
             left_wheels: wheels.joints.left,
@@ -294,6 +302,6 @@ fn export(files: &Files, made: impl FnOnce(&Export) -> Result<Vec<TextFile>, Err
     }
     let changes = write(&exported, &files.out)?;
     let written: Vec<String> = written(&changes).map(|path| path.display().to_string()).collect();
-    say(format_args!("wrote {}", written.join(" and ")));
+    say(format_args!("wrote {}; {}", written.join(" and "), export.vehicle()));
     Ok(Exit::Done)
 }

@@ -12,6 +12,7 @@ use crate::progress::Progress;
 use crate::provenance::provenance;
 use crate::stderr::say;
 use crate::stdout::show;
+use crate::wrapped::wrapped;
 use clap::Args;
 use next::Place;
 use std::path::PathBuf;
@@ -55,7 +56,13 @@ pub fn run(options: &Options) -> Outcome {
     let questions = OpenQuestions::open(&options.diagnosis)?;
     if questions.is_empty() {
         say_removed(&remove_earlier(&options.out)?);
-        show("nothing to plan: the diagnosis leaves nothing open between several effects\n")?;
+        let name = questions.vehicle().unwrap_or("vehicle not told by the diagnosis");
+        show(&wrapped(
+            "",
+            &format!(
+                "nothing to plan: the diagnosis leaves nothing open between several effects; {name}"
+            ),
+        ))?;
         return Ok(Exit::Done);
     }
     let vehicle = vehicle(options)?;

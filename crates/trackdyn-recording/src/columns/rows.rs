@@ -32,13 +32,13 @@ pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Re
         has_row = table.advance()?;
     }
     let columns = units.as_ref().unwrap_or(columns);
+    let unit = |key: Key| match columns.columns[&key].unit {
+        Unit::Speed(unit) => Some(unit),
+        _ => options.speed_unit,
+    };
     let scales = [Key::Left, Key::Right].map(|key| -> Result<f64, Error> {
-        let column = &columns.columns[&key];
-        let unit = match column.unit {
-            Unit::Speed(unit) => Some(unit),
-            _ => options.speed_unit,
-        };
-        Ok(column.sign * scale_of_table(path, unit, options.wheel_radius)?)
+        let scale = scale_of_table(path, unit(key), options.wheel_radius)?;
+        Ok(columns.columns[&key].sign * scale)
     });
     let [left, right] = scales;
     let scales = [left?, right?];
@@ -63,6 +63,7 @@ pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Re
     let source =
         Source { format: Format::Table, path: Some(path.to_owned()), ..Source::computed() };
     Recording::accepting(name, "unknown", runs, source, warnings, &options.accepted)
+        .map_err(|error| error.of_wheels(unit(Key::Left), options.wheel_radius))
 }
 
 /// The rows of all runs, from the current one on.

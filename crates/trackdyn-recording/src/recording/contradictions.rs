@@ -58,12 +58,16 @@ const MAX_UNIT_ERROR: f64 = 1.15;
 /// Largest ratio of its quartiles.
 const MAX_UNIT_QUARTILE_RATIO: f64 = 1.3;
 
+/// How far twice the sum of path and heading is from half a turn at most, rad, where the heading is
+/// that of a compass.
+const MAX_ACROSS: f64 = 0.5;
+
 /// Share of the rows with the stamp of another one from which on stamps are too coarse.
 const MIN_COARSE_SHARE: f64 = 0.5;
 
 /// What contradicts the rows of a run before they are cleaned.
 pub(super) fn of_rows(rows: &UncheckedRun) -> Option<Doubt> {
-    coarse_stamps(rows).or_else(|| degrees(rows))
+    coarse_stamps(rows).or_else(|| yaw_unit(rows))
 }
 
 /// Stamps that most rows share with the one before, of which they are no copies.
@@ -85,12 +89,14 @@ fn coarse_stamps(rows: &UncheckedRun) -> Option<Doubt> {
         .or_else(|| shared(Stream::Poses, of_poses.count(), poses.len()))
 }
 
-/// Yaw that follows the path in degrees.
-fn degrees(rows: &UncheckedRun) -> Option<Doubt> {
+/// Yaw that follows the path in degrees, or as a compass shows it.
+fn yaw_unit(rows: &UncheckedRun) -> Option<Doubt> {
     let poses = &rows.poses.samples;
     let steps = path_extent(poses).map(|extent| extent / 40.0).filter(|step| *step > 0.0)?;
-    // R = |Σ exp(2i(θ − yaw))| / n: 1 where the path leads along the heading, forward or backward.
-    let [mut radians, mut degrees, mut paths] = [(0.0_f64, 0.0_f64, 0_usize); 3];
+    let mut paths = Directions::default();
+    // in radians and in degrees, each counter-clockwise from x and clockwise
+    let mut radians = [Directions::default(); 2];
+    let mut degrees = [Directions::default(); 2];
     let finite = |pose: &trackdyn_core::Pose| pose.x.is_finite() && pose.yaw.is_finite();
     let mut finite = poses.iter().map(|sample| sample.pose).filter(finite);
     let mut start = finite.next()?;
@@ -100,27 +106,64 @@ fn degrees(rows: &UncheckedRun) -> Option<Doubt> {
             continue;
         }
         let path = y.atan2(x);
-        let (sin, cos) = (2.0 * path).sin_cos();
-        paths = (paths.0 + cos, paths.1 + sin, paths.2 + 1);
-        for (unit, sum) in [(1.0, &mut radians), (TAU / 360.0, &mut degrees)] {
+        paths.add(path);
+        for (unit, sums) in [(1.0, &mut radians), (TAU / 360.0, &mut degrees)] {
             let turn = trackdyn_core::pose::wrap_angle(unit * (pose.yaw - start.yaw));
             if turn.abs() < 0.5 {
-                let (sin, cos) = (2.0 * (path - unit * start.yaw - 0.5 * turn)).sin_cos();
-                *sum = (sum.0 + cos, sum.1 + sin, sum.2 + 1);
+                let heading = unit * start.yaw + 0.5 * turn;
+                sums[0].add(path - heading);
+                sums[1].add(path + heading);
             }
         }
         start = pose;
     }
-    let follows = |(cos, sin, count): (f64, f64, usize)| cos.hypot(sin) / real(count.max(1));
     let is_large = poses.iter().any(|sample| sample.pose.yaw.abs() > TAU);
     // A straight path follows a heading that hardly changes, whatever its unit.
-    let are_degrees = is_large
-        && degrees.2 >= MIN_STRETCHES
-        && follows(degrees) > 0.9
-        && follows(paths) < 0.8
-        && (radians.2 < degrees.2 / 4 || follows(radians) < 0.6);
+    let is_curved = paths.agreement() < 0.8;
+    let follows = |of: &Directions| is_curved && of.count >= MIN_STRETCHES && of.agreement() > 0.9;
+    let [by_radians, by_degrees] = [&radians[0], &degrees[0]];
+    let is_compass = |of: &Directions, other: &Directions| {
+        follows(of) && of.is_across() && other.agreement() < 0.6
+    };
+    let is_no_radian =
+        is_large && (by_radians.count < degrees[0].count / 4 || by_radians.agreement() < 0.6);
+    if is_compass(&radians[1], by_radians) {
+        return Some(Doubt::YawOfCompass);
+    }
     // On ice the path says nothing of the heading, but yaw does not outrun the tracks.
-    (are_degrees && turned_per_difference(rows) > MIN_DEGREES).then_some(Doubt::YawInDegrees)
+    if !is_no_radian || turned_per_difference(rows) <= MIN_DEGREES {
+        return None;
+    }
+    if is_compass(&degrees[1], by_degrees) {
+        return Some(Doubt::YawOfCompass);
+    }
+    follows(by_degrees).then_some(Doubt::YawInDegrees)
+}
+
+/// Sum of directions, of which forward and backward are one.
+#[derive(Clone, Copy, Default)]
+struct Directions {
+    cos: f64,
+    sin: f64,
+    count: usize,
+}
+
+impl Directions {
+    fn add(&mut self, angle: f64) {
+        let (sin, cos) = (2.0 * angle).sin_cos();
+        *self = Self { cos: self.cos + cos, sin: self.sin + sin, count: self.count + 1 };
+    }
+
+    /// R = |Σ exp(2i φ)| / n: 1 where all are one.
+    fn agreement(&self) -> f64 {
+        self.cos.hypot(self.sin) / real(self.count.max(1))
+    }
+
+    /// Whether their mean is nearly a right angle: path and heading add up to it where the heading
+    /// is clockwise from the y axis.
+    fn is_across(&self) -> bool {
+        self.sin.atan2(-self.cos).abs() < MAX_ACROSS
+    }
 }
 
 /// Unit of yaw per way that one track runs more than the other, 1/m: less than the inverse of the

@@ -213,6 +213,6 @@ impl fmt::Display for Cleaning {
                 )?;
             }
         }
-        write!(f, " ({}, first at t = {t} s of run {run})", counted(*runs, "run"))
+        write!(f, " ({}, first at t = {t:.3} s of run {run})", counted(*runs, "run"))
     }
 }

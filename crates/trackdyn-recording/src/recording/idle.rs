@@ -8,7 +8,7 @@
 use super::Run;
 use super::stretches::Stretch;
 use crate::doubt::Doubt;
-use trackdyn_core::{PerSide, Side, real};
+use trackdyn_core::{PerSide, Pose, Side, real};
 
 /// Fewest stretches that a finding needs.
 const MIN_STRETCHES: usize = 20;
@@ -21,6 +21,12 @@ const MIN_EXPLAINED: f64 = 0.7;
 
 /// Turns of this size are none of noise, rad.
 const MIN_TURN: f64 = 0.1;
+
+/// Standard deviation of the positions of a robot that stands still, m, whatever moves them.
+const STILL_POSITION: f64 = 0.02;
+
+/// Standard deviation of its yaw, rad.
+const STILL_YAW: f64 = 0.02;
 
 /// Delays of the poses that are tried, s.
 const DELAYS: [f64; 5] = [-0.5, 0.0, 0.25, 0.5, 1.0];
@@ -35,8 +41,32 @@ pub(super) fn dead_encoder(runs: &[Run], late: &dyn Fn(f64) -> Vec<Stretch>) -> 
         [None, Some(_)] => Some(Side::Right),
     };
     let is_explained = DELAYS.iter().any(|&delay| are_explained(&late(delay), dead));
+    if is_explained {
+        return None;
+    }
+    if speed == PerSide::new(Some(0.0), Some(0.0)) && runs.iter().all(is_still) {
+        let duration = runs.iter().map(Run::duration).sum();
+        return Some(Doubt::StoodStill { duration });
+    }
     let speed = speed.left.or(speed.right).unwrap_or(0.0);
-    (!is_explained).then_some(Doubt::DeadEncoder { side: dead, speed })
+    Some(Doubt::DeadEncoder { side: dead, speed })
+}
+
+/// Whether the poses of a run show nothing but noise. Of white noise, steps have twice the variance
+/// of the values; a robot that moves has gone many steps.
+fn is_still(run: &Run) -> bool {
+    let is_noise = |of: &dyn Fn(&Pose) -> f64, small: f64| {
+        let values: Vec<f64> = run.poses().iter().map(|sample| of(&sample.pose)).collect();
+        let values: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
+        let count = real(values.len().max(1));
+        let mean = values.iter().sum::<f64>() / count;
+        let variance = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count;
+        let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).powi(2));
+        variance <= (steps.sum::<f64>() / count).max(small * small)
+    };
+    is_noise(&|pose| pose.x, STILL_POSITION)
+        && is_noise(&|pose| pose.y, STILL_POSITION)
+        && is_noise(&|pose| pose.yaw, STILL_YAW)
 }
 
 /// The speed of a side that never changes.

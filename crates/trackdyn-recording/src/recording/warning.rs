@@ -244,8 +244,9 @@ impl fmt::Display for Warning {
             Self::NoCommonTime { run, offset } => write!(
                 f,
                 "run {run}: tracks and poses share no time: the first pose is stamped {offset:.3} \
-                 s after the first reading of the tracks, by another clock (--tau, and for a bag \
-                 --dated-by log)"
+                 s after the first reading of the tracks, by another clock{} (--tau, and for a bag \
+                 --dated-by log)",
+                in_brackets(*offset)
             ),
             Self::PositionsUnknown { runs, of } => positions_unknown(f, *runs, *of),
             Self::MessagesSkipped { topic, count, reason } => {
@@ -287,7 +288,7 @@ impl fmt::Display for Warning {
             Self::JointJumps { joint, count, t } => write!(
                 f,
                 "{joint}: {count} jumps of its position by more than half a turn that are no \
-                 wraps, left as they are (the first at t = {t} s)"
+                 wraps, left as they are (the first at t = {t:.3} s)"
             ),
             Self::FromTwist { topic, separation } => from_twist(f, topic, *separation),
             Self::FromFixes { topic, imu } => write!(
@@ -348,6 +349,33 @@ fn turns_added(f: &mut fmt::Formatter<'_>, joint: &str, count: usize, modulus: f
     )
 }
 
+/// Offsets of usual clocks, s, since 2017, and what they are.
+const CLOCKS: [(f64, &str); 3] = [
+    (18.0, "the 18 s of leap seconds by which GPS time is ahead of UTC"),
+    (19.0, "the 19 s by which TAI, as of PTP, is ahead of GPS time"),
+    (37.0, "the 37 s of leap seconds by which TAI, as of PTP, is ahead of UTC"),
+];
+
+/// How far an offset is from one of these, s: messages are late.
+const MAX_LATE: f64 = 0.5;
+
+/// What an offset of two clocks, s, is where it is that of usual ones.
+///
+/// ```
+/// use trackdyn_recording::recording::known_offset;
+/// assert!(known_offset(-37.2).is_some_and(|name| name.contains("leap seconds")));
+/// assert_eq!(known_offset(25.0), None);
+/// ```
+pub fn known_offset(offset: f64) -> Option<&'static str> {
+    let near = CLOCKS.iter().find(|(of, _)| (offset.abs() - of).abs() < MAX_LATE);
+    near.map(|(_, name)| *name)
+}
+
+/// This name in brackets; nothing where there is none.
+fn in_brackets(offset: f64) -> String {
+    known_offset(offset).map_or_else(String::new, |name| format!(" ({name})"))
+}
+
 fn clocks_differ(
     f: &mut fmt::Formatter<'_>,
     [first, second]: &[String; 2],
@@ -357,8 +385,9 @@ fn clocks_differ(
     let order = if offset < 0.0 { "earlier" } else { "later" };
     write!(
         f,
-        "clocks: by the log, stamps of {second} are {:.3} s {order} than those of {first}: ",
-        offset.abs()
+        "clocks: by the log, stamps of {second} are {:.3} s {order} than those of {first}{}: ",
+        offset.abs(),
+        in_brackets(offset)
     )?;
     if by_log {
         write!(

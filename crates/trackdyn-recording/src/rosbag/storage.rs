@@ -8,7 +8,7 @@ use crate::Error;
 use crate::recording::Warning;
 use crate::table::{too_many, unreadable};
 use std::path::{Path, PathBuf};
-use trackdyn_core::input;
+use trackdyn_core::input::{self, name_of};
 
 const METADATA: &str = "metadata.yaml";
 
@@ -24,7 +24,7 @@ pub(crate) fn is_bag(path: &Path) -> Result<bool, Error> {
 /// The name of a bag: that of its folder or file without the endings.
 pub(super) fn name(path: &Path) -> String {
     let bare = Part::of(path).map_or_else(|| path.to_owned(), |part| part.unpacked_path());
-    bare.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+    name_of(&bare)
 }
 
 /// Shows all messages of the bag's files, in their order; memory does not grow with the files.

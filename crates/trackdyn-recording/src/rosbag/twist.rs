@@ -17,6 +17,10 @@ pub(super) const JOINTS: [&str; 2] = ["left", "right"];
 /// Words of topics that say how fast a robot should be.
 const COMMAND: [&str; 6] = ["cmd", "command", "commands", "setpoint", "target", "teleop"];
 
+/// Words of topics that say how fast it was, whatever else is in the name, such as `cmd_odom`.
+const MEASURED: [&str; 8] =
+    ["odom", "odometry", "feedback", "measured", "actual", "state", "status", "encoder"];
+
 /// The options by which the speeds of a body are read as joints; others as they are.
 ///
 /// # Errors
@@ -71,31 +75,48 @@ pub(super) fn warning(options: &RosbagOptions) -> Option<Warning> {
 
 /// Whether the messages of a topic have speeds of the body that are no commands.
 pub(super) fn is_offered(name: &str, kind: &str) -> bool {
-    let has_twist = match Layout::of_kind(kind) {
+    has_twist(kind) && !is_command(name)
+}
+
+/// Whether messages of a type have speeds of the body.
+fn has_twist(kind: &str) -> bool {
+    match Layout::of_kind(kind) {
         Some(Layout::Twist | Layout::TwistStamped) => true,
         Some(Layout::PoseOfChild) => kind.ends_with("/Odometry"),
         _ => false,
-    };
-    has_twist && !is_command(name)
+    }
 }
 
 /// Whether a topic says how fast a robot should be, by its name.
 pub(super) fn is_command(name: &str) -> bool {
-    words(name).iter().any(|word| COMMAND.contains(&word.as_str()))
+    let words = words(name);
+    let has = |some: &[&str]| words.iter().any(|word| some.contains(&word.as_str()));
+    has(&COMMAND) && !has(&MEASURED)
 }
 
 /// What a log without joints has instead, and the options that read it.
 pub(super) fn offer(seen: &[Topic]) -> Option<String> {
-    let is_offered =
-        |topic: &&Topic| topic.layout().is_some() && is_offered(&topic.name, &topic.kind);
-    let names: Vec<&str> =
-        seen.iter().filter(is_offered).map(|topic| topic.name.as_str()).collect();
-    let first = names.first()?;
+    let twists = seen.iter().filter(|topic| topic.layout().is_some() && has_twist(&topic.kind));
+    let (commands, measured): (Vec<&Topic>, Vec<&Topic>) =
+        twists.partition(|topic| is_command(&topic.name));
+    if let Some((first, names)) = first_and_all(&measured) {
+        return Some(format!(
+            "speeds of the body (twist) are in {names}: where they come from the encoders alone, \
+             track speeds are made of them by --twist-topic {first} --separation METRES"
+        ));
+    }
+    let (first, names) = first_and_all(&commands)?;
     Some(format!(
-        "speeds of the body (twist) are in {}: where they come from the encoders alone, track \
-         speeds are made of them by --twist-topic {first} --separation METRES",
-        names.join(", ")
+        "speeds of the body (twist) are in {names}, by the name what the robot should do, and of \
+         no use then: only where a driver computes them from the encoders, --twist-topic {first} \
+         --separation METRES reads them"
     ))
+}
+
+/// The first name of topics, and all of them.
+fn first_and_all<'a>(topics: &[&'a Topic]) -> Option<(&'a str, String)> {
+    let names: Vec<&str> = topics.iter().map(|topic| topic.name.as_str()).collect();
+    Some((*names.first()?, names.join(", ")))
 }
 
 /// Speed forward and yaw rate of the body in a message after its header.
@@ -128,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn commands_are_not_offered() {
+    fn commands_are_not_offered_as_measured() {
         let topic = |name: &str, kind: &str| Topic {
             name: name.to_owned(),
             kind: kind.to_owned(),
@@ -136,9 +157,14 @@ mod tests {
         };
         let odometry = topic("/odom", "nav_msgs/msg/Odometry");
         let command = topic("/robot/cmd_vel", "geometry_msgs/msg/Twist");
-        assert_eq!(offer(std::slice::from_ref(&command)), None);
-        let offer = offer(&[command, odometry]).expect("an offer");
-        assert!(offer.contains("--twist-topic /odom") && !offer.contains("cmd_vel"), "{offer}");
+        let alone = offer(std::slice::from_ref(&command)).expect("told");
+        assert!(alone.contains("only where a driver computes them"), "{alone}");
+        let both = offer(&[command, odometry]).expect("an offer");
+        assert!(both.contains("--twist-topic /odom") && !both.contains("cmd_vel"), "{both}");
+        // a driver's odometry, whatever else is in its name
+        let named = topic("/cmd_odom", "geometry_msgs/msg/TwistStamped");
+        let named = offer(&[named]).expect("an offer");
+        assert!(named.contains("by --twist-topic /cmd_odom --separation METRES"), "{named}");
     }
 
     #[test]

@@ -24,6 +24,9 @@ pub struct RobotWheels {
     pub wheel_radius: f64,
     /// What of it is from the log, in words.
     pub from_log: Vec<String>,
+    /// What of it is only the usual name, because the parameters come from a log that names no
+    /// wheel joints, in words.
+    pub usual: Vec<String>,
 }
 
 /// The root link of a robot's URDF.
@@ -41,11 +44,11 @@ impl Export {
     /// from, else by their usual names.
     ///
     /// # Errors
-    /// [`Error::NoWheelRadius`]; [`Error::LogName`] for a name of the log that exports cannot have,
-    /// or a joint that counts backwards.
+    /// [`Error::NoWheelRadius`]; [`Error::LogName`] for a name of the log that exports cannot have;
+    /// [`Error::ReversedJoint`].
     pub fn wheels(&self, choices: &WheelChoices) -> Result<RobotWheels, Error> {
         let log = self.bag.clone().unwrap_or_default();
-        let mut from_log = Vec::new();
+        let (mut from_log, mut usual) = (Vec::new(), Vec::new());
         let mut joints = choices.joints.clone();
         for side in Side::BOTH {
             if !joints[side].is_empty() {
@@ -56,6 +59,10 @@ impl Export {
             joints[side] = named.collect::<Result<_, _>>()?;
             if names.is_empty() {
                 joints[side] = vec![super::usual_joint(side)];
+                if self.bag.is_some() {
+                    let option = setting.replace('_', " ");
+                    usual.push(format!("{option} {}", super::usual_joint(side)));
+                }
             } else {
                 from_log.push(format!("{} {}", setting.replace('_', " "), names.join(", ")));
             }
@@ -64,7 +71,7 @@ impl Export {
         from_log.extend(of_log.map(|radius| format!("wheel radius {radius} m")));
         let none = || Error::NoWheelRadius { file: self.name().to_owned() };
         let wheel_radius = choices.wheel_radius.or(of_log).ok_or_else(none)?;
-        Ok(RobotWheels { joints, wheel_radius, from_log })
+        Ok(RobotWheels { joints, wheel_radius, from_log, usual })
     }
 
     /// The root link of the robot's URDF: as chosen, else the frame whose poses the log has that
@@ -101,16 +108,10 @@ fn name(text: &str, setting: &'static str) -> Result<Name, Error> {
     text.parse().map_err(refused)
 }
 
-/// A joint: drivers of ROS 2 reverse none.
+/// A joint of the log: drivers of ROS 2 reverse none.
 fn joint(text: &str, setting: &'static str) -> Result<Name, Error> {
     match text.strip_prefix('-') {
-        Some(_) => Err(Error::LogName {
-            setting,
-            name: text.to_owned(),
-            reason: "it counts backwards in the log, and a controller reverses no joint: expected \
-                     a joint that counts forwards"
-                .to_owned(),
-        }),
+        Some(bare) => Err(Error::ReversedJoint { setting, name: bare.to_owned() }),
         None => name(text, setting),
     }
 }

@@ -1,24 +1,24 @@
 //! Names for sets of parameters.
 
-use std::ffi::OsStr;
 use std::path::Path;
+use trackdyn_core::input::name_of;
 use trackdyn_estimate::odometry::ParameterSet;
 
-/// Names for files: their stems, with the folder before them where two are alike, and a number
-/// where these are alike too.
+/// Names for files and folders: their own without an ending, with the folder before them where two
+/// are alike, and a number where these are alike too.
 pub(super) fn names<'a>(paths: impl Iterator<Item = &'a Path>) -> Vec<String> {
     let paths: Vec<&Path> = paths.collect();
-    let text = |part: Option<&OsStr>| {
-        let name = part.unwrap_or_default().to_string_lossy();
+    let text = |name: &str| -> String {
         name.chars()
             .map(|c| if c.is_alphanumeric() || "._-".contains(c) { c } else { '_' })
             .collect()
     };
-    let stems: Vec<String> = paths.iter().map(|path| text(path.file_stem())).collect();
+    let stems: Vec<String> = paths.iter().map(|path| text(&name_of(path))).collect();
     let mut names: Vec<String> = Vec::new();
     for (path, stem) in paths.iter().zip(&stems) {
         let alike = stems.iter().filter(|other| *other == stem).count() > 1;
-        let folder: String = text(path.parent().and_then(Path::file_name));
+        let folder = path.parent().and_then(Path::file_name).unwrap_or_default();
+        let folder = text(&folder.to_string_lossy());
         let name =
             if alike && !folder.is_empty() { format!("{folder}-{stem}") } else { stem.clone() };
         let taken = |name: &str| {

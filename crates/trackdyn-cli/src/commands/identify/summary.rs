@@ -9,6 +9,7 @@ use trackdyn::crates::estimate::{
 };
 use trackdyn::crates::model::kinematics::SeparationFile;
 use trackdyn::crates::recording::Run;
+use trackdyn::crates::recording::recording::known_offset;
 use trackdyn::identify::{GyroscopeUse, MotionFit, TurningFit};
 use trackdyn::{Gauge, Recording};
 
@@ -103,15 +104,16 @@ pub fn turning(recording: &Recording, gauge: &Gauge, fit: &TurningFit) -> String
 
 fn clock(text: &mut String, clock: &Clock, is_fitted: bool) {
     let start = if is_fitted { ", where tau starts" } else { "" };
-    let _ = match clock {
-        Clock::Given(tau) => writeln!(text, "  clock      poses {tau:.3} s late, as given{start}"),
-        Clock::Estimated(offset) => writeln!(
-            text,
-            "  clock      poses {:.3} s late (standard error {:.3} s)",
+    let known = known_offset(clock.tau()).map_or_else(String::new, |name| format!("; {name}"));
+    let line = match clock {
+        Clock::Given(tau) => format!("poses {tau:.3} s late, as given{start}"),
+        Clock::Estimated(offset) => format!(
+            "poses {:.3} s late (standard error {:.3} s){known}",
             offset.tau, offset.standard_error
         ),
-        Clock::Unknown(reason) => writeln!(text, "  clock      taken as equal: {reason}"),
+        Clock::Unknown(reason) => format!("taken as equal: {reason}"),
     };
+    *text += &wrapped("  clock      ", &line);
 }
 
 /// How the poses follow the track speeds, where they do not follow at once.
@@ -138,11 +140,11 @@ fn gyroscope(text: &mut String, of: &GyroscopeUse, found: &Identification) {
     let gyroscope = match &of.found {
         Ok(gyroscope) => gyroscope,
         Err(reason) => {
-            let _ = writeln!(text, "  gyroscope  left out: {reason}");
+            *text += &wrapped("  gyroscope  ", &format!("left out: {reason}"));
             return;
         }
     };
-    let _ = writeln!(text, "  gyroscope  {gyroscope}");
+    *text += &wrapped("  gyroscope  ", &gyroscope.to_string());
     let [icrs, _] = &found.fits;
     if let (Ok(with), Some(without)) = (&icrs.least_squares, &of.gap_without_it) {
         let [with, without] = [with.gap().deviation, without.deviation];
@@ -155,10 +157,9 @@ fn gyroscope(text: &mut String, of: &GyroscopeUse, found: &Identification) {
 
 fn noise(text: &mut String, found: &Identification) {
     let poses = found.noise.moving.as_ref().or(found.noise.standing.as_ref());
-    let _ = match poses {
-        Some(poses) => writeln!(
-            text,
-            "  noise      poses {:.1} mm forward, {:.1} mm aside, {:.2} mrad{} ({}, {})",
+    let line = match poses {
+        Some(poses) => format!(
+            "poses {:.1} mm forward, {:.1} mm aside, {:.2} mrad{} ({}, {})",
             1e3 * poses.forward.white,
             1e3 * poses.lateral.white,
             1e3 * poses.yaw.white,
@@ -169,8 +170,9 @@ fn noise(text: &mut String, found: &Identification) {
             poses.triples,
             poses.method
         ),
-        None => writeln!(text, "  noise      not measurable: all segments count alike"),
+        None => "not measurable: all segments count alike".to_owned(),
     };
+    *text += &wrapped("  noise      ", &line);
 }
 
 fn fit(text: &mut String, fit: &Fit, gauge: f64, by_noise: bool) {

@@ -9,7 +9,7 @@ use crate::rosbag::date::Received;
 use crate::rosbag::frames::may_be_odometry;
 use crate::rosbag::joints::Source;
 use crate::rosbag::topic::{Layout, Role, Topic, list};
-use crate::rosbag::twist;
+use crate::rosbag::{signals, twist};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -51,6 +51,7 @@ impl Sources<'_> {
                 format!("{topic}: {count} messages skipped, because {reason}")
             }));
             kinds.extend(twist::offer(self.seen));
+            kinds.extend(signals::offer(self.seen));
             let named = self.options.tracks_topic.as_deref();
             let option = match self.options.twist_topic {
                 Some(_) => "--twist-topic",

@@ -65,7 +65,7 @@ fn remaining(
         watch.go_on()?;
         let left = flexible.left(&evidence);
         let taken = taken(&noise, &evidence.motions(), &left.white, |column| {
-            evidence.whiten_transposed(column)
+            evidence.whiten_transposed(column);
         });
         let likely = search.most_likely(&evidence.motions(), &left.residual, noise, &taken);
         noise = likely.at_least(settings.min_deviations);

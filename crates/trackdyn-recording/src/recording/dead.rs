@@ -151,14 +151,14 @@ fn equals(index: usize, run: &Run, side: Side, usual: f64) -> Vec<Equal> {
         let last = end.min(tracks.len() - 1);
         let time = [tracks[rows.start].t, tracks[last].t];
         let is_long = time[1] - time[0] >= MIN_LONG;
-        let is_questioned = if shown != 0.0 {
-            is_long && !repeats || after.is_some_and(|after| is_fast(after - shown))
-        } else {
+        let is_questioned = if shown == 0.0 {
             match [before, after] {
                 [None, None] => is_long,
                 [Some(a), Some(b)] if is_fast(a) && is_fast(b) && a * b > 0.0 => true,
                 both => is_long && both.into_iter().flatten().any(is_fast),
             }
+        } else {
+            is_long && !repeats || after.is_some_and(|after| is_fast(after - shown))
         };
         if is_questioned {
             found.push(Equal { run: index, side, rows, shown, time });

@@ -4,6 +4,7 @@ use crate::wrapped::wrapped;
 use std::fmt::Write;
 use trackdyn::crates::core::lines::counted;
 use trackdyn::crates::estimate::identification::Fit;
+use trackdyn::crates::estimate::noise::PoseNoise;
 use trackdyn::crates::estimate::{
     Clock, Contradiction, Estimate, Free, Identification, Interval, Nuisance, Parameters, Response,
 };
@@ -159,10 +160,11 @@ fn noise(text: &mut String, found: &Identification) {
     let poses = found.noise.moving.as_ref().or(found.noise.standing.as_ref());
     let line = match poses {
         Some(poses) => format!(
-            "poses {:.1} mm forward, {:.1} mm aside, {:.2} mrad{} ({}, {})",
-            1e3 * poses.forward.white,
-            1e3 * poses.lateral.white,
-            1e3 * poses.yaw.white,
+            "poses {} mm forward, {} mm aside, {} mrad{}{} ({}, {})",
+            or_below(1e3 * poses.forward.white, 1),
+            or_below(1e3 * poses.lateral.white, 1),
+            or_below(1e3 * poses.yaw.white, 2),
+            wandering(poses),
             match poses.stamp {
                 0.0 => String::new(),
                 seconds => format!(", their stamps {:.0} ms", 1e3 * seconds),
@@ -173,6 +175,30 @@ fn noise(text: &mut String, found: &Identification) {
         None => "not measurable: all segments count alike".to_owned(),
     };
     *text += &wrapped("  noise      ", &line);
+}
+
+/// A number with so many decimals, or that it is below the smallest of these.
+fn or_below(value: f64, decimals: usize) -> String {
+    let least = 10_f64.powi(-i32::try_from(decimals).unwrap_or(1));
+    if value < least / 2.0 {
+        format!("below {least:.decimals$}")
+    } else {
+        format!("{value:.decimals$}")
+    }
+}
+
+/// By how much poses wander whose noise shows from one to the next alone in part: as fixes do that
+/// a receiver smooths.
+fn wandering(poses: &PoseNoise) -> String {
+    let [forward, lateral] = [&poses.forward, &poses.lateral].map(|of| [1e3 * of.white, of.walk]);
+    if forward[0].min(lateral[0]) >= 0.05 {
+        return String::new();
+    }
+    format!(
+        ", and wander by {} mm and {} mm in a second",
+        or_below(1e3 * forward[1], 1),
+        or_below(1e3 * lateral[1], 1)
+    )
 }
 
 fn fit(text: &mut String, fit: &Fit, gauge: f64, by_noise: bool) {

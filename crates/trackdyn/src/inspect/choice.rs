@@ -7,8 +7,8 @@ use std::path::Path;
 use trackdyn_estimate::Contradiction;
 use trackdyn_recording::rosbag::{self, Role};
 
-/// Most sources of poses that are tried.
-const MAX_TRIED: usize = 8;
+/// Most sources of poses that are tried: each takes as long as reading the bag.
+const MAX_TRIED: usize = 4;
 
 /// What comes of trying.
 pub(super) enum Choice {
@@ -32,25 +32,27 @@ pub(super) fn of(
     let joints = joints(given, seen);
     let base = joints.clone().unwrap_or_else(|| given.clone());
     let poses = poses(given, seen);
-    let tries = match poses.as_slice() {
+    let tries: Vec<ReadOptions> = match poses.as_slice() {
         [_, _, ..] => poses.iter().map(|topic| with_poses(&base, topic)).collect(),
         _ if joints.is_some() => vec![base],
         _ => return Choice::None,
     };
+    if tries.len() > MAX_TRIED {
+        return Choice::Several(tries);
+    }
     let tried = tries.iter().filter_map(|options| read(path, options, &seen.suggested).ok());
     let of_other = |read: &Read| joints.is_none() || turns(read);
-    let (computed, mut others): (Vec<Read>, Vec<Read>) =
-        tried.filter(of_other).partition(is_computed);
-    match others.len() {
-        0 => Choice::None,
-        1 => {
-            let mut read = others.remove(0);
-            read.findings
-                .insert(0, Finding::Mended(format!("{reason}: {}", took(&read, &computed))));
-            Choice::One(Box::new(read))
-        }
-        _ => Choice::Several(others.into_iter().map(|read| read.options).collect()),
+    let (computed, others): (Vec<Read>, Vec<Read>) = tried.filter(of_other).partition(is_computed);
+    // Where there are no others, it is said of these what they are.
+    let (mut found, computed) =
+        if others.is_empty() { (computed, Vec::new()) } else { (others, computed) };
+    if found.len() > 1 {
+        return Choice::Several(found.into_iter().map(|read| read.options).collect());
     }
+    let Some(mut read) = found.pop() else { return Choice::None };
+    let took = took(&read, joints.is_some(), &computed);
+    read.findings.insert(0, Finding::Mended(format!("{reason}: {took}")));
+    Choice::One(Box::new(read))
 }
 
 /// The options given with the only two joints, where no side is named.
@@ -84,7 +86,7 @@ fn poses<'a>(given: &ReadOptions, seen: &'a rosbag::Inspection) -> Vec<&'a str> 
     }
     let of_poses = seen.topics.iter().filter(|topic| topic.role == Some(Role::Poses));
     let named = of_poses.filter(|topic| topic.messages > 0).map(|topic| topic.name.as_str());
-    named.take(MAX_TRIED).collect()
+    named.collect()
 }
 
 fn with_poses(options: &ReadOptions, topic: &str) -> ReadOptions {
@@ -110,14 +112,14 @@ fn is_computed(read: &Read) -> bool {
     found.iter().any(|of| matches!(of, Contradiction::WheelOdometry { .. }))
 }
 
-/// What was taken, in words.
-fn took(read: &Read, computed: &[Read]) -> String {
+/// What was taken, in words; of joints, where no side was named.
+fn took(read: &Read, has_told_sides: bool, computed: &[Read]) -> String {
     let bag = &read.options.bag;
     let mut words = Vec::new();
     if let Some(topic) = &bag.pose_topic {
         words.push(topic.clone());
     }
-    if !bag.left_joints.is_empty() {
+    if has_told_sides {
         let (left, right) = (bag.left_joints.join(", "), bag.right_joints.join(", "));
         words.push(format!("{left} for the left and {right} for the right, as the poses turn"));
     }

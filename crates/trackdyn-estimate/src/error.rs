@@ -111,10 +111,10 @@ pub enum Error {
     #[error(
         "yaw falls where the right track is faster (correlation {correlation:.2}): left and right \
          are swapped, a side counts backwards, or the sign of yaw is another: give the joints with \
-         --left-joint and --right-joint (-NAME reverses one), or read yaw that counts clockwise, as \
-         north-east-down does, by --pose-axes ned. Or the clocks differ by more than \
-         the {farthest} s that were tried: --tau gives the offset, and of a bag --dated-by chooses \
-         the clock"
+         --left-joint and --right-joint (-NAME reverses one), or read yaw that counts clockwise, \
+         as north-east-down does, by --pose-axes ned. Or the clocks differ by more than the \
+         {farthest} s that were tried: --tau gives the offset, and of a bag --dated-by chooses the \
+         clock"
     )]
     Swapped {
         /// Correlation of yaw increments and encoders.

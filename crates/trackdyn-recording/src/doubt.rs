@@ -349,9 +349,9 @@ impl Doubt {
             }
             Self::BothReversed => "expected speeds that are positive where the robot moves forward",
             Self::Swapped => {
-                "expected x forward, y left, yaw counter-clockwise, and v_right > v_left there: swap \
-                 the sides, or where y points right and yaw counts clockwise, as north-east-down \
-                 does, --pose-axes ned reads such poses"
+                "expected x forward, y left, yaw counter-clockwise, and v_right > v_left there: \
+                 swap the sides, or where y points right and yaw counts clockwise, as \
+                 north-east-down does, --pose-axes ned reads such poses"
             }
             Self::Backwards => {
                 "expected poses whose x axis points forward (--mount-yaw 180 turns those of a \

@@ -12,8 +12,9 @@
 //! way forward. The encoder was dead where both agree on a way that is off by more than a third of
 //! the usual speed, in the second half of the time as well: where the readings are commands, a
 //! track rolls out and stands. A robot that stops stands by its poses as well; on ice it slides on
-//! for a while, which is why a speed has to come back. Commands of a robot that slides stay the same
-//! all the time: a speed that is not zero counts only where it is rarely wrong.
+//! for a while, which is why a speed has to come back. Commands stay the same as well, and a robot
+//! that slides, or lags, does not follow them: a speed that is not zero has to be off by twice what
+//! nearly all the rest of the log is, and rarely.
 //!
 //! A few readings are replaced by the line between those beside them; more are dropped, which
 //! leaves a gap: nobody knows what the track did within.
@@ -21,11 +22,11 @@
 use super::Run;
 use super::cleaning::MIN_GAP_RATIO;
 use super::finding::{Cleaning, Finding};
-use super::motion::{Following, Piece, agreement};
+use super::motion::{Following, Piece, agreement, pieces};
 use super::spikes::bridge;
 use crate::sample::{PoseSample, Stream};
 use std::ops::Range;
-use trackdyn_core::robust::{median, usual_interval};
+use trackdyn_core::robust::{median, quantile, usual_interval};
 use trackdyn_core::{PerSide, Side, real};
 
 /// Fewest equal readings in a row; fewer are spikes or chance.
@@ -37,6 +38,13 @@ const MAX_REPEATED: f64 = 0.1;
 
 /// Largest share of the readings of a side that show the last speed of a dead encoder.
 const MAX_STUCK: f64 = 0.05;
+
+/// Share of the log that counts as nearly all of it, and by how much more a stuck speed is off.
+const NEARLY_ALL: f64 = 0.95;
+const MIN_TIMES_OFF: f64 = 2.0;
+
+/// Fewest pieces of a time at a speed that is not zero: one alone may be a lag.
+const MIN_PIECES: usize = 2;
 
 /// Share of the usual speed that a track has to have had.
 const MIN_SHARE: f64 = 1.0 / 3.0;
@@ -81,7 +89,17 @@ pub(super) fn leave_out(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
         times[run].get(next).is_some_and(|[from, _]| *from < piece.end - delay)
     };
     let Some(following) = Following::of(runs, &meets) else { return };
-    let is_dead = |equal: &Equal| moved(&runs[equal.run], equal, &following, usual[equal.side]);
+    let usually_off = PerSide::from_fn(|side: Side| usually_off(runs, side, &following, &meets));
+    let is_dead = |equal: &Equal| {
+        let least = MIN_SHARE * usual[equal.side];
+        let run = &runs[equal.run];
+        if equal.shown == 0.0 {
+            moved(run, equal, &following, least, 1)
+        } else {
+            let least = least.max(MIN_TIMES_OFF * usually_off[equal.side]);
+            moved(run, equal, &following, least, MIN_PIECES)
+        }
+    };
     let mut dead: Vec<Equal> = questioned.iter().filter(|equal| is_dead(equal)).cloned().collect();
     let readings: usize = runs.iter().map(|run| run.tracks().len()).sum();
     for side in Side::BOTH {
@@ -167,8 +185,44 @@ fn equals(index: usize, run: &Run, side: Side, usual: f64) -> Vec<Equal> {
     found
 }
 
-/// Whether the track moved otherwise by what the poses say.
-fn moved(run: &Run, equal: &Equal, following: &Following, usual: f64) -> bool {
+/// Ways (m) that a track ran more than its readings say in a piece, by the turn of the poses and by
+/// their way forward.
+fn off(run: &Run, side: Side, following: &Following, piece: &Piece) -> [f64; 2] {
+    let read = following.ways(run, piece);
+    let [by_turn, by_way] = following.way(side, piece, read);
+    let by_turn = by_turn.unwrap_or(0.0) - read[side];
+    [by_turn, by_way.map_or(by_turn, |way| way - read[side])]
+}
+
+/// Speed (m/s) by which the readings of a side are off less in nearly all of the log that is not in
+/// question.
+fn usually_off(
+    runs: &[Run],
+    side: Side,
+    following: &Following,
+    meets: &dyn Fn(usize, &Piece, f64) -> bool,
+) -> f64 {
+    let of_run = |(index, run): (usize, &Run)| -> Vec<f64> {
+        let [first, .., last] = run.tracks() else { return Vec::new() };
+        let delay = following.delay;
+        let is_taken = |piece: &Piece| {
+            let is_covered = piece.start - delay >= first.t && piece.end - delay <= last.t;
+            is_covered && !meets(index, piece, delay)
+        };
+        let taken = pieces(run).into_iter().filter(is_taken);
+        let speed = |piece: Piece| {
+            let [by_turn, by_way] = off(run, side, following, &piece);
+            f64::midpoint(by_turn, by_way).abs() / (piece.end - piece.start)
+        };
+        taken.map(speed).collect()
+    };
+    let mut all: Vec<f64> = runs.iter().enumerate().flat_map(of_run).collect();
+    quantile(&mut all, NEARLY_ALL).unwrap_or(f64::INFINITY)
+}
+
+/// Whether the track moved otherwise by what the poses say: by more than `least`, m/s, in so many
+/// pieces or more.
+fn moved(run: &Run, equal: &Equal, following: &Following, least: f64, fewest: usize) -> bool {
     let [from, until] = equal.time.map(|t| t + following.delay);
     let poses = run.poses();
     let first = poses.partition_point(|pose| pose.t <= from).saturating_sub(1);
@@ -178,18 +232,16 @@ fn moved(run: &Run, equal: &Equal, following: &Following, usual: f64) -> bool {
     if poses[poses.len() - 1].t - poses[0].t > MAX_WIDENING * length {
         return false;
     }
-    let mut ways: Vec<[f64; 2]> = Vec::new();
-    for piece in cut(poses) {
-        let read = following.ways(run, &piece);
-        let [by_turn, by_way] = following.way(equal.side, &piece, read);
-        let by_turn = by_turn.unwrap_or(0.0) - read[equal.side];
-        let by_way = by_way.map_or(by_turn, |way| way - read[equal.side]);
-        ways.push([by_turn, by_way]);
+    let pieces = cut(poses);
+    let ways: Vec<[f64; 2]> =
+        pieces.iter().map(|piece| off(run, equal.side, following, piece)).collect();
+    if ways.len() < fewest {
+        return false;
     }
     // A track that rolls out stands in the end.
     let missing =
         |ways: &[[f64; 2]]| -> f64 { ways.iter().map(|[a, b]| f64::midpoint(*a, *b).abs()).sum() };
-    let share = MIN_SHARE * usual * length;
+    let share = least * length;
     let last = &ways[ways.len() / 2..];
     let goes_on = missing(last) > share * real(last.len()) / real(ways.len());
     missing(&ways) > share && goes_on && agreement(&ways) > MIN_AGREEMENT

@@ -1,10 +1,10 @@
-//! Yaw rates of an IMU that stay the same while the poses turn otherwise: a gyroscope that is stuck,
-//! or at the end of its range.
+//! Yaw rates of an IMU that stay the same while the poses turn otherwise: a gyroscope that is
+//! stuck, or at the end of its range.
 //!
 //! # Law
-//! Readings that are equal to the last digit are in question where they last. They are dropped where
-//! the poses turn by another angle meanwhile than they tell. A gyroscope of a robot that stands may
-//! show one number all the time, and one that is coarse may repeat itself.
+//! Readings that are equal to the last digit are in question where they last. They are dropped
+//! where the poses turn by another angle meanwhile than they tell. A gyroscope of a robot that
+//! stands may show one number all the time, and one that is coarse may repeat itself.
 
 use super::Run;
 use super::finding::{Cleaning, Finding};

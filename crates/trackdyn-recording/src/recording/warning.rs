@@ -308,8 +308,8 @@ impl fmt::Display for Warning {
             ),
             Self::ImuOfAPart { covered, of } => write!(
                 f,
-                "imu: its readings cover {covered:.0} s of the {of:.0} s of the poses: the rest has \
-                 no gyroscope"
+                "imu: its readings cover {covered:.0} s of the {of:.0} s of the poses: the rest \
+                 has no gyroscope"
             ),
             Self::Accepted(doubt) => {
                 write!(f, "{doubt}; read all the same (--accept {})", doubt.kind().name())

@@ -70,7 +70,7 @@ fn urdf_frames_and_gz_write_xml() {
     ] {
         let run = place.run(&format!("export {arguments}"));
         assert_eq!(run.status, 0, "{}", run.stderr);
-        assert!(run.stderr.contains(&format!("wrote {file}; auriga-alpha")), "{}", run.stderr);
+        assert!(run.stderr.contains(&format!("wrote {file}; Auriga-alpha")), "{}", run.stderr);
         let xml = text(&place, file);
         let document = roxmltree::Document::parse(&xml).expect("XML");
         assert_eq!(document.root_element().tag_name().name(), root);

@@ -50,7 +50,7 @@ pub struct Search {
 impl Default for Search {
     fn default() -> Self {
         Self {
-            climb: Climb { max_steps: 20, min_gain: 0.05, max_step: 1.5, difference: 1e-3 },
+            climb: Climb { max_steps: 60, min_gain: 0.005, max_step: 1.5, difference: 1e-3 },
             tails: 5.0,
             start_walk: 0.03,
             start_heading: 0.5,

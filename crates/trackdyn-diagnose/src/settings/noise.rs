@@ -66,11 +66,11 @@ group! {
         rounds: usize = 3, "", [1.0, 100.0],
             "Each depends on the other.";
         /// Most steps to the likeliest noise.
-        max_steps: usize = 20, "", [1.0, 1e4],
+        max_steps: usize = 60, "", [1.0, 1e4],
             "A cap: the gain ends them.";
         /// Gain of ln likelihood that ends them.
-        min_gain: f64 = 0.05, "", [0.0, 10.0],
-            "Far below chance.";
+        min_gain: f64 = 0.005, "", [0.0, 10.0],
+            "At ten times that, a walk is open by a tenth, and hangs on the order of the runs.";
         /// Largest step of a ln variance.
         max_step: f64 = 1.5, "", [0.01, 100.0],
             "Longer ones overshoot.";

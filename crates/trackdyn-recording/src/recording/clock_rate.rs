@@ -1,21 +1,21 @@
 //! Poses whose clock runs faster or slower than that of the tracks.
 //!
 //! # Law
-//! turn = k D(τ + ρ (t − t̄)) over pieces of a quarter second, with D the way that the right track
-//! ran more than the left one in the piece moved back by a delay: τ in the middle t̄ of each run,
-//! growing by ρ. k, τ and ρ are least squares by Gauss-Newton steps. They begin with the delays of
-//! the largest correlation in parts of the runs, and with the median of the slopes between these.
+//! turn = b_l D_l(δ) + b_r D_r(δ) over pieces of a quarter second, with D the ways of the tracks in
+//! the piece moved back by a delay δ = τ + ρ (t − t̄): τ in the middle t̄ of each run, growing by ρ.
+//! b, τ and ρ are least squares by Gauss-Newton steps. They begin with the delays of the largest
+//! correlation in parts of the runs, and with the median of the slopes between these.
 //!
-//! Errors are those of blocks of time, so that slip that comes and goes counts. Where ρ shows and
-//! makes clocks part by more than poses are known in time, stamps of poses are set back by
-//! ρ (t − t̄).
+//! Errors are those of a jackknife over blocks of time, so that slip that comes and goes counts.
+//! Where ρ shows and makes clocks part by more than poses are known in time, stamps of poses are
+//! set back by ρ (t − t̄).
 
 use super::Run;
 use super::finding::{Cleaning, Finding};
 use super::motion::{DELAY_STEP, DELAYS, Fits, Piece, pieces};
 use crate::hold::travelled;
 use crate::sample::Stream;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix2, Matrix4, Vector2, Vector4};
 use trackdyn_core::real;
 use trackdyn_core::robust::median;
 
@@ -117,55 +117,83 @@ impl Rate {
     fn fitted(runs: &[Run], all: &[Vec<Piece>], mut tau: f64, mut rate: f64) -> Option<Self> {
         let mut found = None;
         for _ in 0..ITERATIONS {
-            let (mut matrix, mut right) = (Matrix3::zeros(), Vector3::zeros());
-            let mut blocks: Vec<Vec<(Vector3<f64>, f64)>> = Vec::new();
-            let (mut last_block, mut slope) = (None, [0.0; 2]);
-            for (index, (run, pieces)) in runs.iter().zip(all).enumerate() {
-                let middle = middle(run);
-                for piece in pieces {
-                    let t = f64::midpoint(piece.start, piece.end) - middle;
-                    let Some([by, later]) = differences(run, piece, tau + rate * t) else {
-                        continue;
-                    };
-                    slope = [slope[0] + by * by, slope[1] + by * piece.turn];
-                    let block = (index, (piece.start / BLOCK).floor());
-                    if last_block != Some(block) {
-                        blocks.push(Vec::new());
-                        last_block = Some(block);
-                    }
-                    let row = (Vector3::new(by, later, later * t), piece.turn);
-                    blocks.last_mut()?.push(row);
-                }
+            let blocks = blocks(runs, all, tau, rate);
+            if blocks.len() < MIN_BLOCKS {
+                return None;
             }
-            // k as it is: the derivatives by the delay go with it
-            let k = slope[1] / slope[0];
-            let scaled = |row: &Vector3<f64>| Vector3::new(row.x, k * row.y, k * row.z);
-            for (row, turn) in blocks.iter().flatten() {
-                let row = scaled(row);
-                matrix += row * row.transpose();
-                right += row * (turn - k * row.x);
+            let (mut matrix, mut right) = (Matrix2::zeros(), Vector2::zeros());
+            for row in blocks.iter().flatten() {
+                matrix += row.ways * row.ways.transpose();
+                right += row.ways * row.turn;
             }
-            let inverse = matrix.try_inverse()?;
-            let step = inverse * right;
-            tau += step.y;
-            rate += step.z;
-            let score = |block: &Vec<(Vector3<f64>, f64)>| -> Vector3<f64> {
-                let of = |(row, turn): &(Vector3<f64>, f64)| {
-                    let row = scaled(row);
-                    row * (turn - k * row.x - row.dot(&step))
-                };
-                block.iter().map(of).sum()
+            let by_ways = matrix.try_inverse()? * right;
+            let sums: Vec<(Matrix4<f64>, Vector4<f64>)> =
+                blocks.iter().map(|block| sums(block, &by_ways)).collect();
+            let whole: Matrix4<f64> = sums.iter().map(|(matrix, _)| matrix).sum();
+            let right: Vector4<f64> = sums.iter().map(|(_, right)| right).sum();
+            let step = whole.try_inverse()? * right;
+            // Without a block the step is another one.
+            let moved = |(matrix, score): &(Matrix4<f64>, Vector4<f64>)| {
+                let without = (whole - matrix).lu().solve(&(right - score));
+                without.map_or(f64::INFINITY, |without| (without - step).w.powi(2))
             };
             let count = real(blocks.len());
-            let squares: f64 = blocks.iter().map(|block| (inverse * score(block)).z.powi(2)).sum();
-            let error = (squares * count / (count - 1.0)).sqrt();
-            found = (blocks.len() >= MIN_BLOCKS).then_some(Self { value: rate, error });
-            if step.z.abs() < 1e-3 * error {
+            let squares: f64 = sums.iter().map(moved).sum();
+            let error = (squares * (count - 1.0) / count).sqrt();
+            tau += step.z;
+            rate += step.w;
+            found = Some(Self { value: rate, error });
+            if step.w.abs() < 1e-3 * error {
                 break;
             }
         }
         found.filter(|found| found.value.is_finite() && found.error.is_finite())
     }
+}
+
+/// A piece at its delay.
+struct Row {
+    /// D_l and D_r, m.
+    ways: Vector2<f64>,
+    /// Their derivatives by the delay, m/s.
+    later: Vector2<f64>,
+    /// Time from the middle of the run, s.
+    t: f64,
+    /// Turn of the poses, rad.
+    turn: f64,
+}
+
+/// The pieces of all runs in blocks of time.
+fn blocks(runs: &[Run], all: &[Vec<Piece>], tau: f64, rate: f64) -> Vec<Vec<Row>> {
+    let mut blocks = Vec::new();
+    for (run, pieces) in runs.iter().zip(all) {
+        let middle = middle(run);
+        let of = |piece: &Piece| (piece.start / BLOCK).floor();
+        for block in pieces.chunk_by(|a, b| of(a) == of(b)) {
+            let row = |piece: &Piece| {
+                let t = f64::midpoint(piece.start, piece.end) - middle;
+                let [ways, later] = ways(run, piece, tau + rate * t)?;
+                Some(Row { ways, later, t, turn: piece.turn })
+            };
+            let rows: Vec<Row> = block.iter().filter_map(row).collect();
+            if !rows.is_empty() {
+                blocks.push(rows);
+            }
+        }
+    }
+    blocks
+}
+
+/// Jᵀ J and Jᵀ r of a block, by b_l, b_r, τ and ρ.
+fn sums(block: &[Row], by_ways: &Vector2<f64>) -> (Matrix4<f64>, Vector4<f64>) {
+    let (mut matrix, mut right) = (Matrix4::zeros(), Vector4::zeros());
+    for Row { ways, later, t, turn } in block {
+        let later = by_ways.dot(later);
+        let by = Vector4::new(ways.x, ways.y, later, later * t);
+        matrix += by * by.transpose();
+        right += by * (turn - by_ways.dot(ways));
+    }
+    (matrix, right)
 }
 
 /// The pieces of a run, some of very many.
@@ -175,14 +203,15 @@ fn thinned(run: &Run) -> Vec<Piece> {
     pieces.into_iter().step_by(step).collect()
 }
 
-/// D in a piece at a delay, m, and its derivative by the delay, m/s; none where readings lack.
-fn differences(run: &Run, piece: &Piece, delay: f64) -> Option<[f64; 2]> {
+/// Ways of both tracks in a piece at a delay, m, and their derivatives by the delay, m/s; none
+/// where readings lack.
+fn ways(run: &Run, piece: &Piece, delay: f64) -> Option<[Vector2<f64>; 2]> {
     let [first, .., last] = run.tracks() else { return None };
     let half = DELAY_STEP / 2.0;
     let is_covered = piece.start - delay - half >= first.t && piece.end - delay + half <= last.t;
     let at = |delay: f64| {
         let ways = travelled(run.tracks(), piece.start, piece.end, delay);
-        ways.right - ways.left
+        Vector2::new(ways.left, ways.right)
     };
     is_covered.then(|| [at(delay), (at(delay + half) - at(delay - half)) / (2.0 * half)])
 }

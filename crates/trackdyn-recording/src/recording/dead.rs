@@ -4,9 +4,9 @@
 //! # Law
 //! Three or more zeros of a side in a row are in question where the speed falls to them at once
 //! and comes back to as much in the same direction, more than a third of the usual one; where they
-//! last for long, one of both is enough. Another speed is in question where it jumps by that much
-//! at the end; where the readings of the side hardly ever repeat, as those of commands or of coarse
-//! encoders do, also where it lasts for long.
+//! last for long, one of both is enough. Another speed is in question where it stays for five times
+//! as many readings as nearly all speeds of the side do, those of commands or of coarse encoders
+//! among them, and jumps by that much at the end or lasts for long.
 //!
 //! What the track ran then is told twice by the other side: by the turn of the poses, and by their
 //! way forward. The encoder was dead where both agree on a way that is off by more than a third of
@@ -32,9 +32,8 @@ use trackdyn_core::{PerSide, Side, real};
 /// Fewest equal readings in a row; fewer are spikes or chance.
 const MIN_EQUAL: usize = 3;
 
-/// Largest share of the readings of a side that repeat the one before and are not zero, where a
-/// speed that stays the same is in question without a jump.
-const MAX_REPEATED: f64 = 0.1;
+/// Times that a speed stays longer than nearly all speeds of its side, where it is in question.
+const MIN_TIMES_LONGER: f64 = 5.0;
 
 /// Largest share of the readings of a side that show the last speed of a dead encoder.
 const MAX_STUCK: f64 = 0.05;
@@ -151,13 +150,14 @@ fn usual_speed(runs: &[Run], side: Side) -> f64 {
 fn equals(index: usize, run: &Run, side: Side, usual: f64) -> Vec<Equal> {
     let tracks = run.tracks();
     let speed = |row: usize| tracks[row].speeds()[side];
-    let is_repeated = |row: &usize| speed(*row) != 0.0 && speed(*row) == speed(*row - 1);
-    let repeated = (1..tracks.len()).filter(is_repeated).count();
-    let repeats = real(repeated) > MAX_REPEATED * real(tracks.len());
     let is_fast = |speed: f64| speed.abs() > MIN_SHARE * usual;
+    let chunks = || tracks.chunk_by(|a, b| a.speeds()[side] == b.speeds()[side]);
+    let of_speeds = chunks().filter(|equal| equal[0].speeds()[side] != 0.0);
+    let mut lengths: Vec<f64> = of_speeds.map(|equal| real(equal.len())).collect();
+    let usual_length = quantile(&mut lengths, NEARLY_ALL).unwrap_or_default();
     let mut found = Vec::new();
     let mut end = 0;
-    for equal in tracks.chunk_by(|a, b| a.speeds()[side] == b.speeds()[side]) {
+    for equal in chunks() {
         let rows = end..end + equal.len();
         end = rows.end;
         let shown = speed(rows.start);
@@ -176,7 +176,8 @@ fn equals(index: usize, run: &Run, side: Side, usual: f64) -> Vec<Equal> {
                 both => is_long && both.into_iter().flatten().any(is_fast),
             }
         } else {
-            is_long && !repeats || after.is_some_and(|after| is_fast(after - shown))
+            real(rows.len()) >= MIN_TIMES_LONGER * usual_length
+                && (is_long || after.is_some_and(|after| is_fast(after - shown)))
         };
         if is_questioned {
             found.push(Equal { run: index, side, rows, shown, time });

@@ -2,13 +2,13 @@
 //!
 //! # Law
 //! turn = b_l D_l(δ) + b_r D_r(δ) over pieces of a quarter second, with D the ways of the tracks in
-//! the piece moved back by a delay δ = τ + ρ (t − t̄): τ in the middle t̄ of each run, growing by ρ.
-//! b, τ and ρ are least squares by Gauss-Newton steps. They begin with the delays of the largest
+//! the piece moved back by a delay δ = τ + ρ (t − t̄): τ in the middle t̄ of each run, growing by
+//! ρ. b, τ and ρ are least squares by Gauss-Newton steps. They begin with the delays of the largest
 //! correlation in parts of the runs, and with the median of the slopes between these.
 //!
 //! Errors are those of a jackknife over blocks of time, so that slip that comes and goes counts.
-//! Where ρ shows and makes clocks part by more than poses are known in time, stamps of poses are
-//! set back by ρ (t − t̄).
+//! Where ρ shows, leaves less of the turns than any one delay, and makes clocks part by more than
+//! poses are known in time, stamps of poses are set back by ρ (t − t̄).
 
 use super::Run;
 use super::finding::{Cleaning, Finding};
@@ -47,8 +47,19 @@ const ITERATIONS: usize = 8;
 /// chance, reach three.
 const MIN_ERRORS: f64 = 6.0;
 
+/// Largest part of the squares that one delay leaves of the turns, that a rate leaves.
+const MAX_LEFT: f64 = 0.9;
+
+/// Delays around that of the rate that are tried as one delay, in steps of a fraction of
+/// [`DELAY_STEP`].
+const ONE_DELAY_STEPS: i32 = 60;
+const ONE_DELAY_STEP: f64 = DELAY_STEP / 20.0;
+
 /// Least time by which the clocks part within a run, s: a part of the time that poses are late.
 const MIN_GAIN: f64 = 0.03;
+
+/// Least such time in intervals of the readings: within one, nobody knows when a speed changed.
+const MIN_INTERVALS: f64 = 2.0;
 
 /// The rate at which the clock of the poses gains on that of the tracks.
 struct Rate {
@@ -62,7 +73,11 @@ struct Rate {
 pub(super) fn set_back(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
     let longest = runs.iter().map(Run::duration).fold(0.0, f64::max);
     let Some(Rate { value, error }) = Rate::of(runs) else { return };
-    if value.abs() < MIN_ERRORS * error || value.abs() * longest < MIN_GAIN {
+    let readings = runs.iter().flat_map(|run| run.tracks().windows(2));
+    let mut intervals: Vec<f64> = readings.map(|pair| pair[1].t - pair[0].t).collect();
+    let interval = median(&mut intervals).unwrap_or_default();
+    let least = MIN_GAIN.max(MIN_INTERVALS * interval);
+    if value.abs() < MIN_ERRORS * error || value.abs() * longest < least {
         return;
     }
     for run in runs {
@@ -121,12 +136,7 @@ impl Rate {
             if blocks.len() < MIN_BLOCKS {
                 return None;
             }
-            let (mut matrix, mut right) = (Matrix2::zeros(), Vector2::zeros());
-            for row in blocks.iter().flatten() {
-                matrix += row.ways * row.ways.transpose();
-                right += row.ways * row.turn;
-            }
-            let by_ways = matrix.try_inverse()? * right;
+            let (by_ways, _) = by_ways(&blocks)?;
             let sums: Vec<(Matrix4<f64>, Vector4<f64>)> =
                 blocks.iter().map(|block| sums(block, &by_ways)).collect();
             let whole: Matrix4<f64> = sums.iter().map(|(matrix, _)| matrix).sum();
@@ -142,13 +152,30 @@ impl Rate {
             let error = (squares * (count - 1.0) / count).sqrt();
             tau += step.z;
             rate += step.w;
-            found = Some(Self { value: rate, error });
+            found = (step.w.abs() < error).then_some(Self { value: rate, error });
             if step.w.abs() < 1e-3 * error {
                 break;
             }
         }
-        found.filter(|found| found.value.is_finite() && found.error.is_finite())
+        let left = |tau: f64, rate: f64| Some(by_ways(&blocks(runs, all, tau, rate))?.1);
+        let one_delay = (-ONE_DELAY_STEPS..=ONE_DELAY_STEPS)
+            .filter_map(|step| left(tau + ONE_DELAY_STEP * f64::from(step), 0.0));
+        let best = one_delay.fold(f64::INFINITY, f64::min);
+        found.filter(|found| left(tau, found.value).is_some_and(|left| left < MAX_LEFT * best))
     }
+}
+
+/// b_l and b_r by least squares, and the mean square that they leave of the turns.
+fn by_ways(blocks: &[Vec<Row>]) -> Option<(Vector2<f64>, f64)> {
+    let (mut matrix, mut right) = (Matrix2::zeros(), Vector2::zeros());
+    let rows = || blocks.iter().flatten();
+    for row in rows() {
+        matrix += row.ways * row.ways.transpose();
+        right += row.ways * row.turn;
+    }
+    let by_ways = matrix.try_inverse()? * right;
+    let squares: f64 = rows().map(|row| (row.turn - by_ways.dot(&row.ways)).powi(2)).sum();
+    Some((by_ways, squares / real(rows().count())))
 }
 
 /// A piece at its delay.

@@ -37,8 +37,10 @@ const MIN_YAW: f64 = std::f64::consts::PI;
 /// odometry no better than a guess does.
 const MAX_HALF_WIDTH: f64 = 0.25;
 
-/// Share of the turning against the tracks that is more than noise.
+/// Share of the turning against the tracks that is more than noise, and explains why no distance
+/// fits; and one beside which no distance is right, however well it fits.
 const MIN_AGAINST: f64 = 0.2;
+const CONTRADICTS: f64 = 0.4;
 
 /// Reweighting has settled long before.
 const ITERATIONS: usize = 50;
@@ -159,7 +161,17 @@ impl Separation {
             let least = if is_told { 0.0 } else { MIN_ERROR * found.value.abs() };
             Interval::new(found.value, found.deviation.max(least), groups.len(), 1)
         });
+        let against = against(turns);
+        let goes_against = || {
+            refused(format!(
+                "{:.0} % of the turning goes against the tracks: yaw falls where the right track \
+                 is faster: expected yaw that is positive counter-clockwise, and v_right > v_left \
+                 there: a sign is wrong there, or left and right are swapped",
+                100.0 * against
+            ))
+        };
         match of_scatter {
+            _ if against >= CONTRADICTS => Err(goes_against()),
             Some(gap) if gap.low > 0.0 && gap.half_width() <= MAX_HALF_WIDTH * gap.value => {
                 Ok(Self { gap, turns: turns.len(), groups: groups.len() })
             }
@@ -169,12 +181,7 @@ impl Separation {
                  gyroscope's axes and at slipping wheels",
                 gap.value, gap.low, gap.high
             ))),
-            _ if against(turns) >= MIN_AGAINST => Err(refused(format!(
-                "{:.0} % of the turning goes against the tracks: yaw falls where the right track \
-                 is faster: expected yaw that is positive counter-clockwise, and v_right > v_left \
-                 there: a sign is wrong there, or left and right are swapped",
-                100.0 * against(turns)
-            ))),
+            _ if against >= MIN_AGAINST => Err(goes_against()),
             _ => Err(refused(format!(
                 "yaw does not follow the tracks: {gap:.3} m, with an interval that holds no \
                  distance of any robot"

@@ -22,8 +22,9 @@
 //! Where that fails too, a share of one step that lowers the residual is taken: near sticking a law
 //! may be steep, and the whole step would lead far away.
 //!
-//! Where û is about the stationary motion, so is the motion with the laws, and D is that of the
-//! stationary one: most of a drive, in which few stages need an evaluation.
+//! Where û has been about the stationary motion for a while, so is the motion with the laws, and D
+//! is that of the stationary one: most of a drive, in which few stages need an evaluation. Where
+//! that is depends on û alone, so that D stays smooth in the numbers of the laws.
 
 use crate::settings;
 use nalgebra::{Matrix3, Vector3};
@@ -66,11 +67,9 @@ pub fn changes(
 ) -> Vec<[Twist; 2]> {
     let still = Twist::zero();
     let gauge = with.model.vehicle().gauge;
-    let most = |twists: &[Twist]| {
-        settings.max_steady_departure
-            * twists.iter().map(|twist| size(*twist, gauge)).fold(0.0, f64::max)
-    };
-    let (departing, lasting) = (most(run.steady), most(shifts));
+    let fastest = run.steady.iter().map(|twist| size(*twist, gauge)).fold(0.0, f64::max);
+    let departing = settings.max_steady_departure * fastest;
+    let mut steady_for = 0.0;
     let mut changes = Vec::with_capacity(run.steps.len());
     let mut ended = still;
     let mut known = None;
@@ -86,7 +85,9 @@ pub fn changes(
         while let Some(step) = steps.next_if(|step| step.end <= until) {
             let departs =
                 |instant: &Instant| size(instant.twist - run.steady[reading], gauge) > departing;
-            if size(ended - shift, gauge) <= lasting && !step.stages.iter().any(departs) {
+            let departs = step.stages.iter().any(departs);
+            steady_for = if departs { 0.0 } else { steady_for + step.duration };
+            if steady_for > settings.min_steady_time {
                 changes.push([shift; 2]);
                 ended = shift;
                 continue;

@@ -45,6 +45,9 @@ group! {
         /// Departure from the stationary motion, in the largest speed, that counts as none there.
         max_steady_departure: f64 = 0.01, "", [0.0, 0.1],
             "Laws change slips of a percent by a percent.";
+        /// Time of it after which the motion with a law is stationary, too.
+        min_steady_time: f64 = 0.2, "s", [0.0, 10.0],
+            "Bodies follow belts in milliseconds.";
         /// Change, in typical sizes, over which a motion in time serves.
         reach: f64 = 0.2, "", [1e-3, 10.0],
             "What is not linear is half a percent.";

@@ -191,7 +191,8 @@ fn or_below(value: f64, decimals: usize) -> String {
 /// a receiver smooths.
 fn wandering(poses: &PoseNoise) -> String {
     let [forward, lateral] = [&poses.forward, &poses.lateral].map(|of| [1e3 * of.white, of.walk]);
-    if forward[0].min(lateral[0]) >= 0.05 {
+    let wanders = forward[1].max(lateral[1]) >= 5e-5;
+    if !wanders || forward[0].min(lateral[0]) >= 0.05 {
         return String::new();
     }
     format!(

@@ -1,7 +1,7 @@
 //! The files as bags.
 
 use super::{bytes, layers, messages, replay, synthetic, synthetic_layers};
-use crate::recording::drives::{Bag, RADIUS};
+use crate::recording::drives::{Bag, RADIUS, at, poses, quaternion};
 use std::collections::BTreeMap;
 use trackdyn::crates::export::viewer::{PathLayer, bag};
 use trackdyn::viewer::Layers;
@@ -59,7 +59,13 @@ fn a_file_has_the_same_bytes_each_time() {
 fn the_reader_gets_back_what_was_read() {
     let mut options = ReadOptions::default();
     options.bag.wheel_radius = Some(RADIUS);
-    let (_log, path) = Bag::default().with_wheels().with_poses().write();
+    // of a sensor ahead of the middle: poses of the middle itself would be wheel odometry
+    let mut log = Bag::default().with_wheels();
+    for (t, pose) in poses() {
+        let (sin, cos) = pose.yaw.sin_cos();
+        log.pose(at(t), [pose.x + 0.1 * cos, pose.y + 0.1 * sin], quaternion(pose.yaw));
+    }
+    let (_log, path) = log.write();
     let recording = Recording::open(&path, &options).expect("a bag");
     let folder = tempfile::tempdir().expect("a temporary folder");
     let written = replay(&recording, "fit").write_layers(folder.path(), &Provenance::default());

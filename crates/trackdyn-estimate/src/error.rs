@@ -128,6 +128,11 @@ pub enum Error {
 }
 
 impl Error {
+    /// So many segments, of a mean duration, s, are too few for so many parameters.
+    pub(crate) fn too_few(found: usize, each: f64, parameters: usize) -> Self {
+        Self::TooFewSegments { found, needed: 4 * parameters, parameters, each }
+    }
+
     /// Whether the recording is sound and only does not tell what was asked: other driving would.
     pub fn is_no_result(&self) -> bool {
         matches!(

@@ -234,13 +234,7 @@ fn too_few(recording: &Recording, observations: &Observations, options: &Options
     if let Some((run, offset)) = apart.filter(|_| options.tau.is_none()) {
         return Error::NoCommonTime { run, offset };
     }
-    let parameters = Free::IcrsAndAlphas.count();
-    Error::TooFewSegments {
-        found: observations.len(),
-        needed: 4 * parameters,
-        parameters,
-        each: observations.mean_duration(),
-    }
+    Error::too_few(observations.len(), observations.mean_duration(), Free::IcrsAndAlphas.count())
 }
 
 impl<'a> Seen<'a> {

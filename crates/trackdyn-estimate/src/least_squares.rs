@@ -66,9 +66,7 @@ pub fn least_squares(
 ) -> Result<Estimate, Error> {
     let count = unknowns.count();
     if observations.len() < 4 * count {
-        let found = observations.len();
-        let (needed, each) = (4 * count, observations.mean_duration());
-        return Err(Error::TooFewSegments { found, needed, parameters: count, each });
+        return Err(Error::too_few(observations.len(), observations.mean_duration(), count));
     }
     let whitener = Whitener::new(weighting, observations);
     let lanes = Lanes::new(observations);

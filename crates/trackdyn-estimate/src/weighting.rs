@@ -249,9 +249,7 @@ impl Whitener {
             before = *value;
         }
     }
-}
 
-impl Whitener {
     /// Multiplies a column by L⁻ᵀ, the transpose of [`Whitener::whiten`], in place.
     pub fn whiten_transposed(&self, column: &mut [Vector3<f64>]) {
         let (mut after, mut heading) = (Vector3::zeros(), 0.0);
@@ -501,6 +499,7 @@ mod tests {
             -covariance.cholesky().expect("positive definite").l().diagonal().map(f64::ln).sum();
         assert!((determinant - expected).abs() < 1e-8, "{determinant} {expected}");
     }
+
     /// A column that is zero where segments are lost.
     fn column(segments: &[Seen], seed: f64) -> Vec<Vector3<f64>> {
         let value = |(k, segment): (usize, &Seen)| {

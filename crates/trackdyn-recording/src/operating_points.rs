@@ -4,6 +4,7 @@ use crate::Error;
 use crate::folder::MANIFEST;
 use crate::table::Table;
 use std::path::{Path, PathBuf};
+use trackdyn_core::input::name_of;
 use trackdyn_core::robust::median;
 
 const COLUMNS: [&str; 5] = ["v_left", "v_right", "v_forward", "v_lateral", "yaw_rate"];
@@ -83,7 +84,7 @@ impl OperatingPoints {
         if let Some(per_speed) = turn_in_degrees(&points) {
             return Err(Error::PointsInDegrees { path: path.to_owned(), per_speed });
         }
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let name = name_of(path);
         Ok(Self { name, points })
     }
 }

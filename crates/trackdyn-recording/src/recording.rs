@@ -145,7 +145,7 @@ impl Recording {
             refuse(&path, &mut doubts, accepted, &mut warnings)?;
             doubts.extend(contradictions::of_runs(&kept));
             refuse(&path, &mut doubts, accepted, &mut warnings)?;
-            clock_rate::set_back(&mut kept, &mut cleanings);
+            clock_rate::take_off(&mut kept, &mut cleanings);
             frozen::leave_out(&mut kept, &mut cleanings);
             saturated::leave_out(&mut kept, &mut cleanings);
             bias::take_off(&mut kept, &mut cleanings);

@@ -84,12 +84,13 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
         names: Some(Box::new(collected.names.of_robot(options, radius))),
     };
     let joints = collected.names.joints;
-    // Words of their names tell the sides where no option does.
-    let are_named = options.left_joints.is_empty() && options.right_joints.is_empty();
     let axes = options.pose_axes;
     let are_joints = options.twist_topic.is_none();
     let is_gyroscope = collected.runs.iter().all(is_yaw_alone);
     let kind = if options.left_signals.is_empty() { "joint" } else { "signal" };
+    // Words of the names of joints tell the sides where no option does.
+    let are_named =
+        kind == "joint" && options.left_joints.is_empty() && options.right_joints.is_empty();
     Recording::accepting(name, "unknown", collected.runs, source, warnings, &options.accepted)
         .map_err(|error| {
             if are_joints {
@@ -170,7 +171,7 @@ fn with_options(error: Error, taken: &PerSide<Vec<String>>, told: &Told) -> Erro
                 )
             } else if axes == PoseAxes::NorthEastDown {
                 format!("leave out --pose-axes ned, or swap the sides by {left} {right}")
-            } else if are_named && kind == "joint" {
+            } else if are_named {
                 format!(
                     "the names of the joints tell left from right, so poses count yaw clockwise, \
                      as north-east-down does: --pose-axes ned reads them. Where the names are \

@@ -45,7 +45,7 @@ pub fn read_by(
     let mut warnings: Vec<Warning> = tilted.into_iter().map(Warning::Accepted).collect();
     let mut runs = divide(vec![UncheckedRun { id: 0, tracks, poses, imu }], &mut warnings);
     options.apply(trajectory, &mut runs)?;
-    let name = trajectory.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let name = input::name_of(trajectory);
     let source =
         Source { format: Format::Tum, path: Some(trajectory.to_owned()), ..Source::computed() };
     Recording::accepting(name, robot, runs, source, warnings, &options.accepted)

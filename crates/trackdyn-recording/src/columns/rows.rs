@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::Path;
 use trackdyn_core::Pose;
+use trackdyn_core::input::name_of;
 
 /// What a time may be.
 const TIME: &str = "a number, a date such as 2024-03-31T00:59:30.05 or 31.03.2024 00:59:30.05, or \
@@ -59,7 +60,7 @@ pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Re
     for run in &mut runs {
         warnings.extend(thin_out(&mut run.poses.samples));
     }
-    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let name = name_of(path);
     let source =
         Source { format: Format::Table, path: Some(path.to_owned()), ..Source::computed() };
     Recording::accepting(name, "unknown", runs, source, warnings, &options.accepted)

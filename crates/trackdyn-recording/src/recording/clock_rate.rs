@@ -12,7 +12,7 @@
 
 use super::Run;
 use super::finding::{Cleaning, Finding};
-use super::motion::{DELAY_STEP, DELAYS, Fits, Piece, pieces};
+use super::motion::{DELAY_STEP, DELAYS, Fits, Piece, pieces, thinned};
 use crate::hold::travelled;
 use crate::sample::Stream;
 use nalgebra::{Matrix2, Matrix4, Vector2, Vector4};
@@ -63,6 +63,8 @@ const MIN_INTERVALS: f64 = 2.0;
 
 /// The rate at which the clock of the poses gains on that of the tracks.
 struct Rate {
+    /// τ, s.
+    tau: f64,
     /// ρ, s per s.
     value: f64,
     /// Its standard error.
@@ -70,14 +72,20 @@ struct Rate {
 }
 
 /// Sets the stamps of poses back to the clock of the tracks; `cleanings` takes what was found.
-pub(super) fn set_back(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
+pub(super) fn take_off(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
     let longest = runs.iter().map(Run::duration).fold(0.0, f64::max);
-    let Some(Rate { value, error }) = Rate::of(runs) else { return };
+    if longest < real(MIN_PARTS) * PART {
+        return;
+    }
+    let all: Vec<Vec<Piece>> = runs.iter().map(some_pieces).collect();
+    let Some(rate) = Rate::of(runs, &all) else { return };
+    let Rate { value, error, .. } = rate;
     let readings = runs.iter().flat_map(|run| run.tracks().windows(2));
     let mut intervals: Vec<f64> = readings.map(|pair| pair[1].t - pair[0].t).collect();
     let interval = median(&mut intervals).unwrap_or_default();
     let least = MIN_GAIN.max(MIN_INTERVALS * interval);
-    if value.abs() < MIN_ERRORS * error || value.abs() * longest < least {
+    let shows = value.abs() >= MIN_ERRORS * error && value.abs() * longest >= least;
+    if !shows || !rate.leaves_less(runs, &all) {
         return;
     }
     for run in runs {
@@ -110,12 +118,8 @@ struct Part {
 
 impl Rate {
     /// By the turns of all runs; none where parts do not show their delays.
-    fn of(runs: &[Run]) -> Option<Self> {
-        if runs.iter().all(|run| run.duration() < real(MIN_PARTS) * PART) {
-            return None;
-        }
-        let all: Vec<Vec<Piece>> = runs.iter().map(thinned).collect();
-        let parts = parts(runs, &all);
+    fn of(runs: &[Run], all: &[Vec<Piece>]) -> Option<Self> {
+        let parts = parts(runs, all);
         if parts.len() < MIN_PARTS {
             return None;
         }
@@ -125,7 +129,7 @@ impl Rate {
             later.map(move |other| (other.delay - one.delay) / (other.t - one.t))
         });
         let rate = median(&mut pairs.collect::<Vec<_>>())?;
-        Self::fitted(runs, &all, tau, rate)
+        Self::fitted(runs, all, tau, rate)
     }
 
     /// Least squares from a delay, s, and a rate.
@@ -152,16 +156,21 @@ impl Rate {
             let error = (squares * (count - 1.0) / count).sqrt();
             tau += step.z;
             rate += step.w;
-            found = (step.w.abs() < error).then_some(Self { value: rate, error });
+            found = (step.w.abs() < error).then_some(Self { tau, value: rate, error });
             if step.w.abs() < 1e-3 * error {
                 break;
             }
         }
+        found
+    }
+
+    /// Whether it leaves less of the turns than any one delay.
+    fn leaves_less(&self, runs: &[Run], all: &[Vec<Piece>]) -> bool {
         let left = |tau: f64, rate: f64| Some(by_ways(&blocks(runs, all, tau, rate))?.1);
         let one_delay = (-ONE_DELAY_STEPS..=ONE_DELAY_STEPS)
-            .filter_map(|step| left(tau + ONE_DELAY_STEP * f64::from(step), 0.0));
+            .filter_map(|step| left(self.tau + ONE_DELAY_STEP * f64::from(step), 0.0));
         let best = one_delay.fold(f64::INFINITY, f64::min);
-        found.filter(|found| left(tau, found.value).is_some_and(|left| left < MAX_LEFT * best))
+        left(self.tau, self.value).is_some_and(|left| left < MAX_LEFT * best)
     }
 }
 
@@ -224,18 +233,16 @@ fn sums(block: &[Row], by_ways: &Vector2<f64>) -> (Matrix4<f64>, Vector4<f64>) {
 }
 
 /// The pieces of a run, some of very many.
-fn thinned(run: &Run) -> Vec<Piece> {
-    let pieces = pieces(run);
-    let step = pieces.len().div_ceil(MAX_PIECES).max(1);
-    pieces.into_iter().step_by(step).collect()
+fn some_pieces(run: &Run) -> Vec<Piece> {
+    thinned(&pieces(run), MAX_PIECES).copied().collect()
 }
 
 /// Ways of both tracks in a piece at a delay, m, and their derivatives by the delay, m/s; none
 /// where readings lack.
 fn ways(run: &Run, piece: &Piece, delay: f64) -> Option<[Vector2<f64>; 2]> {
-    let [first, .., last] = run.tracks() else { return None };
     let half = DELAY_STEP / 2.0;
-    let is_covered = piece.start - delay - half >= first.t && piece.end - delay + half <= last.t;
+    let is_covered =
+        [delay - half, delay + half].iter().all(|delay| piece.is_covered(run.tracks(), *delay));
     let at = |delay: f64| {
         let ways = travelled(run.tracks(), piece.start, piece.end, delay);
         Vector2::new(ways.left, ways.right)
@@ -318,7 +325,7 @@ mod tests {
         for rate in [0.01, -0.01, 1e-3] {
             let mut runs = [turning(rate)];
             let mut cleanings = Vec::new();
-            set_back(&mut runs, &mut cleanings);
+            take_off(&mut runs, &mut cleanings);
             let Some(Finding::ClockRate { rate: found, .. }) =
                 cleanings.first().map(|of| of.finding)
             else {
@@ -337,7 +344,7 @@ mod tests {
     fn a_clock_that_keeps_time_is_left() {
         let (mut runs, before) = ([turning(0.0)], turning(0.0));
         let mut cleanings = Vec::new();
-        set_back(&mut runs, &mut cleanings);
+        take_off(&mut runs, &mut cleanings);
         assert!(cleanings.is_empty(), "{cleanings:?}");
         assert_eq!(runs[0], before);
     }

@@ -204,12 +204,9 @@ fn usually_off(
     meets: &dyn Fn(usize, &Piece, f64) -> bool,
 ) -> f64 {
     let of_run = |(index, run): (usize, &Run)| -> Vec<f64> {
-        let [first, .., last] = run.tracks() else { return Vec::new() };
         let delay = following.delay;
-        let is_taken = |piece: &Piece| {
-            let is_covered = piece.start - delay >= first.t && piece.end - delay <= last.t;
-            is_covered && !meets(index, piece, delay)
-        };
+        let is_taken =
+            |piece: &Piece| piece.is_covered(run.tracks(), delay) && !meets(index, piece, delay);
         let taken = pieces(run).into_iter().filter(is_taken);
         let speed = |piece: Piece| {
             let [by_turn, by_way] = off(run, side, following, &piece);

@@ -33,7 +33,7 @@ pub(super) fn leave_out(runs: &mut [Run]) -> Option<Warning> {
 }
 
 /// Turn that the yaw rates between two times add up to: a reading holds until the next.
-pub(super) fn turned(imu: &[ImuSample], start: f64, end: f64) -> f64 {
+fn turned(imu: &[ImuSample], start: f64, end: f64) -> f64 {
     let first = imu.partition_point(|reading| reading.t < start);
     let within = imu[first..].iter().take_while(|reading| reading.t < end);
     let until = imu[first..].iter().skip(1).map(|reading| reading.t.min(end));

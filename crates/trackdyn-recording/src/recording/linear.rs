@@ -11,7 +11,7 @@
 //! that come and go count.
 
 use super::Run;
-use super::motion::{DELAY_STEP, DELAYS, Piece, pieces_of};
+use super::motion::{DELAY_STEP, DELAYS, Piece, pieces_of, thinned};
 use crate::hold::travelled;
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use trackdyn_core::robust::deviation_about_zero;
@@ -118,18 +118,15 @@ fn rows(
     is_left_out: &dyn Fn(usize, &Piece, f64) -> bool,
 ) -> Vec<Row> {
     let of_run = |(index, (run, pieces)): (usize, (&Run, &Vec<Piece>))| -> Vec<Row> {
-        let [first, .., last] = run.tracks() else { return Vec::new() };
-        let step = pieces.len().div_ceil(MAX_PIECES).max(1);
         let is_taken = |piece: &&Piece| {
-            let is_covered = piece.start - delay >= first.t && piece.end - delay <= last.t;
-            is_covered && !is_left_out(index, piece, delay)
+            piece.is_covered(run.tracks(), delay) && !is_left_out(index, piece, delay)
         };
         let row = |piece: &Piece| {
             let ways = travelled(run.tracks(), piece.start, piece.end, delay);
             let of = Vector3::new(ways.left, ways.right, piece.end - piece.start);
             (of, [piece.turn, piece.arc()])
         };
-        pieces.iter().step_by(step).filter(is_taken).map(row).collect()
+        thinned(pieces, MAX_PIECES).filter(is_taken).map(row).collect()
     };
     runs.iter().zip(pieces).enumerate().flat_map(of_run).collect()
 }

@@ -7,7 +7,7 @@
 
 use super::Run;
 use crate::hold::travelled;
-use crate::sample::PoseSample;
+use crate::sample::{PoseSample, TrackSample};
 use trackdyn_core::{PerSide, Side};
 
 /// Least time of a piece, s.
@@ -49,6 +49,12 @@ impl Piece {
         Self { start: start.t, end: end.t, turn, forward: cos * x + sin * y }
     }
 
+    /// Whether readings of the tracks cover it, moved back by a delay, s.
+    pub(super) fn is_covered(&self, tracks: &[TrackSample], delay: f64) -> bool {
+        let [first, .., last] = tracks else { return false };
+        self.start - delay >= first.t && self.end - delay <= last.t
+    }
+
     /// Way along the heading, m: of the arc whose chord the way along the mean heading is.
     pub(super) fn arc(&self) -> f64 {
         let half = 0.5 * self.turn;
@@ -78,6 +84,11 @@ pub(super) fn pieces_of(run: &Run, least: f64) -> Vec<Piece> {
         start = end;
     }
     pieces
+}
+
+/// Every so many of the pieces of a run, about `most` of them: a part of a long one says enough.
+pub(super) fn thinned(pieces: &[Piece], most: usize) -> impl Iterator<Item = &Piece> {
+    pieces.iter().step_by(pieces.len().div_ceil(most).max(1))
 }
 
 /// How poses follow the tracks.
@@ -172,12 +183,8 @@ impl Fits {
     ) -> Self {
         let mut fits = Self::default();
         for (index, (run, pieces)) in runs.iter().zip(all).enumerate() {
-            let [first, .., last] = run.tracks() else { continue };
-            // A part of a long recording says enough.
-            let step = pieces.len().div_ceil(MAX_PIECES).max(1);
-            for piece in pieces.iter().step_by(step) {
-                let is_covered = piece.start - delay >= first.t && piece.end - delay <= last.t;
-                if !is_covered || is_left_out(index, piece, delay) {
+            for piece in thinned(pieces, MAX_PIECES) {
+                if !piece.is_covered(run.tracks(), delay) || is_left_out(index, piece, delay) {
                     continue;
                 }
                 let PerSide { left, right } =

@@ -8,8 +8,7 @@
 
 use super::Run;
 use super::finding::{Cleaning, Finding};
-use super::gyro_unit::turned;
-use crate::sample::Stream;
+use crate::sample::{PoseSample, Stream};
 use std::ops::Range;
 
 /// Least time of equal readings, s.
@@ -53,21 +52,19 @@ fn is_stuck(run: &Run, rows: &Range<usize>) -> bool {
     let poses = run.poses();
     let first = poses.partition_point(|pose| pose.t < from);
     let last = poses.partition_point(|pose| pose.t <= until);
-    let Some(poses) = poses.get(first..last).filter(|poses| poses.len() > 1) else { return false };
-    let [start, end] = [&poses[0], &poses[poses.len() - 1]];
-    // A turn there and back leaves nothing: the pose that is furthest off tells.
-    let off = |end: &crate::sample::PoseSample| {
-        (end.pose.yaw - start.pose.yaw - turned(imu, start.t, end.t)).abs()
-    };
-    let largest = poses.iter().map(off).fold(0.0, f64::max);
-    end.t > start.t && largest > MIN_OFF
+    let Some(poses @ [start, ..]) = poses.get(first..last) else { return false };
+    // A turn there and back leaves nothing: any pose on the way tells.
+    let rate = imu[rows.start].gyro_z;
+    let off =
+        |pose: &PoseSample| (pose.pose.yaw - start.pose.yaw - rate * (pose.t - start.t)).abs();
+    poses.iter().any(|pose| off(pose) > MIN_OFF)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::recording::UncheckedRun;
-    use crate::sample::{ImuSample, PoseSample, TrackSample};
+    use crate::sample::{ImuSample, TrackSample};
     use trackdyn_core::Pose;
 
     /// A minute of turning to and fro, of whose gyroscope readings are replaced.

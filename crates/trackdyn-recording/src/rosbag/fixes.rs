@@ -9,7 +9,7 @@
 
 use super::date::Received;
 use std::f64::consts::{PI, TAU};
-use trackdyn_core::robust::median;
+use trackdyn_core::robust::deviation_about_zero;
 
 /// Semi-major axis of the ellipsoid, m.
 const SEMI_MAJOR_AXIS: f64 = 6_378_137.0;
@@ -135,16 +135,14 @@ fn yaw_at(yaws: &[(i64, f64)], time: i64) -> Option<f64> {
 
 /// By how much fixes miss a smooth way, m, each by itself; none of fewer than three.
 fn scatter(poses: &[Received<[f64; 3]>]) -> Option<f64> {
-    /// Median size of normal errors, in standard deviations.
-    const MEDIAN: f64 = 0.674_49;
     let bends = poses.windows(3).flat_map(|three| {
         [0, 1].map(|axis| {
             let [before, at, after] = [0, 1, 2].map(|k| three[k].value[axis]);
-            (before - 2.0 * at + after).abs()
+            before - 2.0 * at + after
         })
     });
     // Var(p0 - 2 p1 + p2) = 6 sigma^2
-    Some(median(&mut bends.collect::<Vec<_>>())? / (MEDIAN * 6.0_f64.sqrt()))
+    Some(deviation_about_zero(&mut bends.collect::<Vec<_>>())? / 6.0_f64.sqrt())
 }
 
 /// Compares yaw and course where the robot drives straight, forward or backward.

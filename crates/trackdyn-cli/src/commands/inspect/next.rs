@@ -93,8 +93,7 @@ fn commands(found: &Inspection, asked: &Asked) -> Vec<String> {
             let words = ["trackdyn inspect".to_owned(), recording.clone()];
             command(&words.into_iter().chain(options.iter().cloned()).collect::<Vec<_>>(), WIDTH)
         };
-        let sides = ["LEFT", "RIGHT"]
-            .map(|side| option(if side == "LEFT" { "left-joint" } else { "right-joint" }, side));
+        let sides = [option("left-joint", "LEFT"), option("right-joint", "RIGHT")];
         return match found.choices.as_slice() {
             [] => vec![line(&sides.into_iter().chain(reading).collect::<Vec<_>>())],
             choices => choices.iter().map(|of| line(&shell::reading(of, false))).collect(),

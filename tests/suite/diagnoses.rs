@@ -97,6 +97,26 @@ fn a_gyroscope_shows_what_coarse_headings_hide() {
     assert!(found.error_with_it < 0.1 * found.error_of_poses, "{found}");
 }
 
+/// A pose a second tells little of what takes a tenth of one. A gyroscope saw it.
+#[test]
+fn a_gyroscope_shows_what_lies_between_poses() {
+    const LAG: f64 = 0.1;
+    let concealed = format!("split-lag:left_s={LAG}");
+    let mut sensors = sensors(Preset::Laboratory);
+    sensors.pose.interval = 1.0;
+    sensors.imu = Some(Imu::default());
+    let recording = recording_by(&[&concealed], &sensors);
+    let found = diagnosed_by_gyroscope(&recording, &owned(&[&concealed])).expect("an answer");
+    let is_lag = |one: &&Missing| one.verdict.effect.card().id == "split-lag";
+    let lag = found.answer.missing.iter().find(is_lag);
+    let lag = &lag.unwrap_or_else(|| panic!("{:?}", named(&found))).parameters[0];
+    assert!((lag.low..=lag.high).contains(&LAG), "{} to {}", lag.low, lag.high);
+    assert!(lag.high - lag.low < 0.01, "{} to {}", lag.low, lag.high);
+    let samples = found.evidence.seen.samples();
+    let unseen = samples.iter().filter(|sample| !sample.has_place[1]).count();
+    assert!(10 * unseen > 8 * samples.len(), "{unseen} of {}", samples.len());
+}
+
 /// The diagnosis of a drive by hand on which this is concealed.
 fn diagnosis(concealed: &[&str]) -> Diagnosis {
     diagnosed(&recording(concealed), &owned(concealed)).expect("an answer")

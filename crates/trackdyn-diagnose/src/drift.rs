@@ -3,7 +3,7 @@
 //!
 //! # Law
 //! Runs are cut into pieces of one length L, one after the other. A piece ends where the robot has
-//! travelled Σ |V_l + V_r|/2 Δt ≥ L, or turned Σ |Δψ| ≥ L. Then
+//! travelled Σ |V_l + V_r|/2 Δt ≥ L, or turned Σ |Δψ| ≥ L, at a pose whose place was seen. Then
 //!
 //! drift = Σ |error of a piece| / Σ length of a piece
 //!
@@ -171,10 +171,12 @@ impl Replayed<'_> {
     fn pieces(&self, length: f64, of: impl Fn(usize) -> f64) -> Vec<Range<usize>> {
         let mut pieces = Vec::new();
         for stretch in &self.stretches {
-            let (mut first, mut way) = (stretch.start, 0.0);
-            for index in stretch.clone() {
+            let begin = stretch.clone().find(|&index| self.samples[index].has_place[0]);
+            let Some(begin) = begin else { continue };
+            let (mut first, mut way) = (begin, 0.0);
+            for index in begin..stretch.end {
                 way += of(index);
-                if way >= length * ROUNDING {
+                if way >= length * ROUNDING && self.samples[index].has_place[1] {
                     pieces.push(first..index + 1);
                     (first, way) = (index + 1, 0.0);
                 }
@@ -210,6 +212,7 @@ mod tests {
             speeds: PerSide::new(0.4, 0.6),
             acceleration: PerSide::default(),
             follows: !index.is_multiple_of(count / 2),
+            has_place: [true; 2],
         };
         (0..count).map(sample).collect()
     }

@@ -41,6 +41,9 @@ pub struct Sample {
     pub acceleration: PerSide<f64>,
     /// Whether its first pose is the last one of the sample before it.
     pub follows: bool,
+    /// Whether the places of its first and last pose were measured: if not, only their yaw was, by
+    /// a gyroscope.
+    pub has_place: [bool; 2],
 }
 
 /// The samples of each run, by their indices.

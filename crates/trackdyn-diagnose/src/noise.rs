@@ -23,12 +23,13 @@
 
 mod flexible;
 
-use crate::evidence::run_ranges;
+use crate::evidence::{Sample, run_ranges};
 use crate::fit::Fit;
 use crate::progress::{Cancelled, Watch};
 use crate::weighted::Weighted;
 use flexible::Flexible;
 use nalgebra::Vector3;
+use std::ops::Range;
 use trackdyn_core::{Pose, real};
 use trackdyn_estimate::likely_noise::{mean_squares, taken};
 use trackdyn_estimate::weighting::SegmentNoise;
@@ -145,32 +146,36 @@ fn run_time(evidence: &Weighted) -> Option<f64> {
 }
 
 /// Samples that share an outlying pose: the one that ends there has a large residual, both composed
-/// have a small one.
+/// have a small one. A pose whose place was not seen joins what is before and after it.
 fn outliers(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) -> Vec<usize> {
     let mut white = left.to_vec();
     evidence.whiten(&mut white);
     let settings = &evidence.settings().noise;
     let samples = evidence.samples();
-    let pose = |motion: &Vector3<f64>| Pose::new(motion[0], motion[1], motion[2]);
+    let pose = |motion: Vector3<f64>| Pose::new(motion[0], motion[1], motion[2]);
     let motions = evidence.motions();
+    let joined = joined(samples);
     let mut lost: Vec<usize> = Vec::new();
-    for index in 1..samples.len() {
-        let pair = [index - 1, index];
+    let mut outlier: Option<usize> = None;
+    for (index, pair) in joined.windows(2).enumerate() {
+        let [before, after] = [&pair[0], &pair[1]];
         // Samples conditioned on an outlying pose are wrong too, and are judged in the next round.
-        if lost.last().is_some_and(|last| index <= last + settings.outlier_distance) {
+        if outlier.is_some_and(|outlier| index <= outlier + settings.outlier_distance) {
             continue;
         }
-        let is_far = white[index - 1].norm_squared() >= settings.min_outlier_square;
-        if !samples[index].follows || !is_far {
+        let is_far = white[before.end - 1].norm_squared() >= settings.min_outlier_square;
+        if !samples[after.start].follows || !is_far {
             continue;
         }
-        let both =
-            |of: &dyn Fn(usize) -> Vector3<f64>| pose(&of(pair[0])).compose(&pose(&of(pair[1])));
-        let observed = both(&|k| samples[k].motion);
-        let expected = both(&|k| samples[k].motion - left[k]);
+        let both = before.start..after.end;
+        let composed = |of: &dyn Fn(usize) -> Vector3<f64>| {
+            both.clone().fold(Pose::default(), |at, k| at.compose(&pose(of(k))))
+        };
+        let observed = composed(&|k| samples[k].motion);
+        let expected = composed(&|k| samples[k].motion - left[k]);
         let off = expected.relative(&observed);
-        let duration = samples[pair[0]].duration + samples[pair[1]].duration;
-        let ([first, _], [_, last]) = (motions[pair[0]].twists, motions[pair[1]].twists);
+        let duration: f64 = samples[both.clone()].iter().map(|sample| sample.duration).sum();
+        let ([first, _], [_, last]) = (motions[both.start].twists, motions[both.end - 1].twists);
         let reach = observed.x.hypot(observed.y).powi(2);
         // poses at both ends, the walk between them, and the first yaw error times the distance
         let variance = |k: usize| {
@@ -182,17 +187,29 @@ fn outliers(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) ->
             + off.y.powi(2) / variance(1)
             + off.yaw.powi(2) / variance(2);
         if together < settings.max_pair_square {
-            lost.extend(pair);
+            outlier = Some(index);
+            lost.extend(both);
         }
     }
     lost
 }
 
+/// Samples in a row from one pose whose place was seen to the next.
+fn joined(samples: &[Sample]) -> Vec<Range<usize>> {
+    let rows = samples.chunk_by(|a, b| b.follows && !a.has_place[1]);
+    let row = |end: &mut usize, row: &[Sample]| {
+        let start = *end;
+        *end += row.len();
+        Some(start..*end)
+    };
+    rows.scan(0, row).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::evidence::Evidence;
     use crate::evidence::planned::{PlannedRun, READINGS};
-    use crate::evidence::{Evidence, Sample};
     use crate::settings::Settings;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;

@@ -67,6 +67,7 @@ impl Segments {
             duration: sample.duration,
             run: sample.run,
             twists: twists[index],
+            has_place: sample.has_place,
             is_lost: lost[index],
             follows: sample.follows && !(index > 0 && lost[index - 1]),
         })
@@ -373,7 +374,10 @@ impl Weighted {
     /// Whether a channel of a sample was measured.
     pub fn is_measured(&self, sample: usize, channel: usize) -> bool {
         match &self.whitening {
-            Whitening::Segments(segments, ..) => !segments.lost[sample],
+            Whitening::Segments(segments, ..) => {
+                let is_seen = channel == 2 || self.samples()[sample].has_place[1];
+                is_seen && !segments.lost[sample]
+            }
             Whitening::Points(inverse) => inverse[sample][channel] > 0.0,
         }
     }

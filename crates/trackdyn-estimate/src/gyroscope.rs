@@ -21,13 +21,17 @@
 //! # Sources
 //! Rauch, Tung, Striebel, AIAA Journal 3(8), 1965 (smoother); IEEE Std 952 (errors of gyroscopes).
 
+mod between;
 mod fit;
 mod level;
 mod quiet;
 mod turned;
 
+pub use between::Filled;
+
 use fit::{Drive, Fit};
 use std::fmt;
+use std::ops::Range;
 use trackdyn_core::real;
 use trackdyn_core::robust::median;
 use trackdyn_recording::{Recording, Run, UncheckedRun};
@@ -128,12 +132,23 @@ pub enum Unfit {
     },
 }
 
-/// The recording with the yaw of its poses corrected by its gyroscope, and what that tells. `tau`
-/// is the clock offset of the poses against the encoders, s.
+/// A recording whose gyroscope corrects the yaw of its poses.
+#[derive(Clone, Debug)]
+pub struct Corrected {
+    /// The recording.
+    pub recording: Recording,
+    /// What the gyroscope tells.
+    pub gyroscope: Gyroscope,
+    /// Poses that are smoothed in a row: the index of their run, and theirs in it.
+    rows: Vec<(usize, Range<usize>)>,
+}
+
+/// The recording with the yaw of its poses corrected by its gyroscope. `tau` is the clock offset of
+/// the poses against the encoders, s.
 ///
 /// # Errors
 /// Why the gyroscope does not serve.
-pub fn with_gyroscope(recording: &Recording, tau: f64) -> Result<(Recording, Gyroscope), Unfit> {
+pub fn with_gyroscope(recording: &Recording, tau: f64) -> Result<Corrected, Unfit> {
     let turned: Vec<Vec<Turned>> = recording.runs().iter().map(Turned::of_run).collect();
     if turned.iter().all(Vec::is_empty) {
         return Err(Unfit::NoReadings);
@@ -148,7 +163,7 @@ pub fn with_gyroscope(recording: &Recording, tau: f64) -> Result<(Recording, Gyr
 }
 
 /// The recording with the yaw that a fit gives.
-fn corrected(drive: &Drive, fit: &Fit) -> Result<(Recording, Gyroscope), Unfit> {
+fn corrected(drive: &Drive, fit: &Fit) -> Result<Corrected, Unfit> {
     let rows = drive.rows(fit.lag);
     let found: usize = rows.iter().map(|row| row.poses.len()).sum();
     if found < MIN_POSES {
@@ -193,7 +208,9 @@ fn corrected(drive: &Drive, fit: &Fit) -> Result<(Recording, Gyroscope), Unfit> 
         poses: count,
     };
     let runs = runs.into_iter().map(|rows| Run::new(rows, &mut Vec::new()));
-    Ok((drive.recording.with_runs(runs.collect()), gyroscope))
+    let recording = drive.recording.with_runs(runs.collect());
+    let rows = rows.iter().map(|row| (row.run, row.poses.clone())).collect();
+    Ok(Corrected { recording, gyroscope, rows })
 }
 
 /// Indices of the poses of each run at which what a fit leaves jumps, and stays where it went: an

@@ -5,11 +5,11 @@
 //! wandering heading ([`SegmentNoise`]): eight variances that maximise a restricted likelihood with
 //! heavy tails, so that outliers count little:
 //!
-//! maximise Σ ln det L⁻¹ − (ν + 3)/2 ln(1 + |z|²/ν) + ½ taken·ln variances,  z = L⁻¹ r,
+//! maximise Σ ln det L⁻¹ − (ν + d)/2 ln(1 + |z|²/ν) + ½ taken·ln variances,  z = L⁻¹ r,
 //!
-//! L the Cholesky factor of the covariance. The last term corrects for the degrees of freedom that
-//! a fit took from each variance. The level is then set by the median of |z|², that of a χ² with
-//! three degrees of freedom, corrected for the fit.
+//! L the Cholesky factor of the covariance, d = 3, or 1 where only yaw was measured. The last term
+//! corrects for the degrees of freedom that a fit took from each variance. The level is then set by
+//! the median of |z|², that of a χ² with three degrees of freedom, corrected for the fit.
 //!
 //! # Sources
 //! Patterson, Thompson, Biometrika 58(3), 1971 (restricted likelihood);
@@ -113,9 +113,10 @@ impl Search {
         let (here, _) = if with.1 > without.1 + self.min_stamp_gain { with } else { without };
         let noise = self.noise_of(&here);
         let (_, white) = likelihood.white(&noise);
-        let squares = white.iter().map(Vector3::norm_squared);
-        let mut squares: Vec<f64> = squares.filter(|square| *square > 0.0).collect();
-        let numbers = 3.0 * real(squares.len());
+        let seen = motions.iter().zip(&white).filter(|(_, white)| white.norm_squared() > 0.0);
+        let numbers = real(seen.clone().map(|(motion, _)| motion.numbers()).sum());
+        let all = seen.filter(|(motion, _)| motion.numbers() == 3);
+        let mut squares: Vec<f64> = all.map(|(_, white)| white.norm_squared()).collect();
         let free = (numbers - taken.sum()).max(1.0);
         let level = median(&mut squares)
             .map_or(1.0, |median| median / MEDIAN_OF_CHI_SQUARE_3 * numbers / free);
@@ -205,7 +206,9 @@ impl Likelihood<'_> {
     /// White pose noise that would explain all residuals: two poses meet in a segment.
     fn white_alone(&self) -> SegmentNoise {
         let pose = [0, 1, 2].map(|axis| {
-            let squares = self.residual.iter().map(|residual| residual[axis].powi(2));
+            let pairs = self.motions.iter().zip(self.residual);
+            let seen = pairs.filter(|(motion, _)| axis == 2 || motion.has_place[1]);
+            let squares = seen.map(|(_, residual)| residual[axis].powi(2));
             let median = median(&mut squares.collect::<Vec<_>>()).unwrap_or_default();
             (median / MEDIAN_OF_CHI_SQUARE / 2.0).max(f64::MIN_POSITIVE)
         });
@@ -236,7 +239,8 @@ impl Likelihood<'_> {
         segments
             .map(|((motion, z), ln_determinant)| {
                 let is_nothing = motion.is_lost || z == Vector3::zeros();
-                let likelihood = || heavy_tailed(ln_determinant, z.norm_squared(), self.by.tails);
+                let (square, tails) = (z.norm_squared(), self.by.tails);
+                let likelihood = || heavy_tailed(ln_determinant, square, motion.numbers(), tails);
                 if is_nothing { 0.0 } else { likelihood() }
             })
             .collect()

@@ -54,6 +54,8 @@ pub struct Observation {
     pub duration: f64,
     /// Index of its run in the recording.
     pub run: usize,
+    /// Indices of its first and last pose in the run.
+    pub poses: [usize; 2],
     /// Whether its first pose is the last one of the segment before it.
     pub follows: bool,
     /// Twist of the body at its first and at its last pose, by the track speeds there: forward
@@ -73,6 +75,7 @@ impl Observation {
             start: segment.start,
             duration: segment.duration(),
             run: segment.run,
+            poses: segment.poses,
             follows: segment.follows,
             twists: [[0.0; 3]; 2],
         }

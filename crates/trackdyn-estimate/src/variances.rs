@@ -7,6 +7,7 @@
 
 use nalgebra::{Cholesky, SMatrix, SVector};
 use rayon::prelude::*;
+use trackdyn_core::real;
 
 /// How to look for the maximum.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,8 +93,8 @@ impl Climb {
     }
 }
 
-/// Log-likelihood of a whitened residual z with ln det L⁻¹, by a t distribution of three dimensions
-/// with ν degrees of freedom, up to a constant: ln det L⁻¹ − (ν + 3)/2 ln(1 + |z|²/ν).
-pub fn heavy_tailed(ln_determinant: f64, square: f64, degrees: f64) -> f64 {
-    ln_determinant - 0.5 * (degrees + 3.0) * (square / degrees).ln_1p()
+/// Log-likelihood of a whitened residual z of d numbers with ln det L⁻¹, by a t distribution of d
+/// dimensions with ν degrees of freedom, up to a constant: ln det L⁻¹ − (ν + d)/2 ln(1 + |z|²/ν).
+pub fn heavy_tailed(ln_determinant: f64, square: f64, numbers: usize, degrees: f64) -> f64 {
+    ln_determinant - 0.5 * (degrees + real(numbers)) * (square / degrees).ln_1p()
 }

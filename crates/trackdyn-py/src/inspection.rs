@@ -99,6 +99,11 @@ fn driven<'py>(py: Python<'py>, of: &Driving) -> PyResult<Bound<'py, PyDict>> {
     dict.set_item("robot", &of.robot)?;
     dict.set_item("runs", of.runs)?;
     dict.set_item("duration", of.duration)?;
+    let gyroscope = of.gyroscope.as_ref().map(|found| match found {
+        Ok(gyroscope) => (true, gyroscope.to_string()),
+        Err(reason) => (false, reason.to_string()),
+    });
+    dict.set_item("gyroscope", gyroscope)?;
     dict.set_item("has_positions", of.has_positions)?;
     dict.set_item("fastest", of.fastest)?;
     dict.set_item("segments", of.segments)?;

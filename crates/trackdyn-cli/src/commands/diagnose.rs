@@ -6,7 +6,7 @@ use crate::changes::{say_removed, say_written, written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::folder::prepare_folder;
-use crate::gyroscope::say_gyroscopes;
+use crate::gyroscope::{say_gyroscopes, say_unused_gyroscopes};
 use crate::options::{
     MethodOptions, PART, PartOptions, RecordingOptions, held_out, refuse_for_points, seconds,
 };
@@ -76,6 +76,9 @@ pub fn run(options: &Options) -> Outcome {
         warn(format_args!("{contradiction}"));
     }
     say_gyroscopes(prepared.evidence().gyroscope());
+    if !settings.gyroscope {
+        say_unused_gyroscopes(&recordings, settings.tau);
+    }
     prepare_folder(&options.out)?;
     let diagnosis = Progress::over(|observer| prepared.run(observer))?;
     let changes = diagnosis.write(&options.out, &provenance())?;

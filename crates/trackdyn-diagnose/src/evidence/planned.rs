@@ -110,6 +110,7 @@ fn samples_of(
             speeds: travelled(tracks, start, end, tau).map(|distance| distance / duration),
             acceleration: PerSide::from_fn(|side| (after[side] - before[side]) / duration),
             follows: k > 0,
+            has_place: [true; 2],
         }
     })
 }

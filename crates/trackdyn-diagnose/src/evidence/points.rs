@@ -58,6 +58,7 @@ impl Evidence {
                 speeds: PerSide::new(point.v_left, point.v_right),
                 acceleration: PerSide::default(),
                 follows: false,
+                has_place: [true; 2],
             });
             let (v_left, v_right) = (point.v_left, point.v_right);
             tracks.push(vec![TrackSample { t: 0.0, v_left, v_right }]);

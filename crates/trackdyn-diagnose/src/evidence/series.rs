@@ -6,10 +6,11 @@ use crate::settings::{self, Settings};
 use nalgebra::Vector3;
 use std::borrow::Cow;
 use std::sync::Arc;
+use trackdyn_core::robust::usual_interval;
 use trackdyn_core::{PerSide, Pose};
 use trackdyn_estimate::blocks::Blocks;
 use trackdyn_estimate::frames::share_a_frame;
-use trackdyn_estimate::gyroscope::{Gyroscope, Unfit, with_gyroscope};
+use trackdyn_estimate::gyroscope::{Filled, Gyroscope, Unfit, with_gyroscope};
 use trackdyn_estimate::noise::{Noise, noise};
 use trackdyn_estimate::observations::{Observation, Observations, Piece};
 use trackdyn_estimate::regular::with_regular_poses;
@@ -61,13 +62,8 @@ impl Evidence {
         let recording = with_poses_every(&recording, by.min_pose_interval);
         let clock = Clock::of(&recording, tau).map_err(Error::Clock)?;
         let tau = clock.tau();
-        let (recording, measured) = with_quieter_poses(&recording, tau);
-        // Poses stand at their times now, so the gyroscope tells where they look.
-        let (recording, measured, gyroscope) = if by_gyroscope {
-            with_yaw_of_gyroscope(recording, measured, tau)
-        } else {
-            (recording, measured, None)
-        };
+        let Poses { recording, noise: measured, has_place, gyroscope } =
+            Poses::quieter(&recording, tau).by(by_gyroscope, tau, by);
         let observations = segments(&recording, tau, by)?;
         let gap =
             spin_test(&observations, gauge).map_or(by.gap_without_spins * gauge, |spin| spin.gap);
@@ -75,7 +71,7 @@ impl Evidence {
         let blocks = observations.blocks();
         let has_world = share_a_frame(&recording);
         let begin = recording.begin();
-        let samples = samples(&recording, &observations, &blocks, begin);
+        let samples = samples(&recording, &has_place, &observations, &blocks, begin);
         Ok(Self {
             tracks: tracks(&recording, &samples, begin).into(),
             samples: samples.into(),
@@ -148,13 +144,13 @@ fn noise_of_segments(
 /// One sample for each segment, with times since `begin`.
 fn samples(
     recording: &Recording,
+    has_place: &[Vec<bool>],
     observations: &Observations,
     blocks: &Blocks,
     begin: f64,
 ) -> Vec<Sample> {
     let sample = |segment: &Observation| {
-        let run = &recording.runs()[segment.run];
-        let first = run.poses().partition_point(|pose| pose.t < segment.start);
+        let poses = recording.runs()[segment.run].poses();
         let travelled = observations.travelled(segment);
         let pieces = observations.pieces(segment);
         let change = |speed: fn(&Piece) -> f64| {
@@ -168,10 +164,11 @@ fn samples(
             start: segment.start - begin,
             duration: segment.duration,
             motion: Vector3::from(segment.motion),
-            pose: run.poses().get(first).map_or(Pose::default(), |sample| sample.pose),
+            pose: poses[segment.poses[0]].pose,
             speeds: travelled.map(|distance| distance / segment.duration),
             acceleration: PerSide::new(change(|piece| piece.v_left), change(|piece| piece.v_right)),
             follows: segment.follows,
+            has_place: segment.poses.map(|pose| has_place[segment.run][pose]),
         }
     };
     observations.segments().iter().map(sample).collect()
@@ -188,35 +185,62 @@ fn tracks(recording: &Recording, samples: &[Sample], begin: f64) -> Vec<Vec<Trac
     recording.runs().iter().enumerate().map(of_run).collect()
 }
 
-/// The recording and its noise, with poses moved to regular times where that lowers the noise: a
-/// late stamp looks like motion.
-fn with_quieter_poses(recording: &Recording, tau: f64) -> (Cow<'_, Recording>, Noise) {
-    let as_stamped = noise(recording, tau);
-    let due = with_regular_poses(recording);
-    let as_due = noise(&due, tau);
-    // log of the product of the white-noise standard deviations
-    let level = |noise: &Noise| -> Option<f64> {
-        let axes = noise.moving.as_ref()?.of_pose;
-        Some(axes.iter().map(|white| white.max(MIN_POSE_NOISE).ln()).sum())
-    };
-    match (level(&as_stamped), level(&as_due)) {
-        (Some(stamped), Some(level)) if level < stamped => (Cow::Owned(due), as_due),
-        _ => (Cow::Borrowed(recording), as_stamped),
+/// A recording with the best of its poses.
+struct Poses<'a> {
+    recording: Cow<'a, Recording>,
+    /// Their noise, measured without a model.
+    noise: Noise,
+    /// Of each pose of each run, whether its place was measured.
+    has_place: Vec<Vec<bool>>,
+    /// What a gyroscope tells of their yaw; none where it was not asked.
+    gyroscope: Option<Result<Gyroscope, Unfit>>,
+}
+
+impl<'a> Poses<'a> {
+    /// Those at regular times where that lowers the noise: a late stamp looks like motion.
+    fn quieter(recording: &'a Recording, tau: f64) -> Self {
+        let as_stamped = noise(recording, tau);
+        let due = with_regular_poses(recording);
+        let as_due = noise(&due, tau);
+        // log of the product of the white-noise standard deviations
+        let level = |noise: &Noise| -> Option<f64> {
+            let axes = noise.moving.as_ref()?.of_pose;
+            Some(axes.iter().map(|white| white.max(MIN_POSE_NOISE).ln()).sum())
+        };
+        let (recording, noise) = match (level(&as_stamped), level(&as_due)) {
+            (Some(stamped), Some(level)) if level < stamped => (Cow::Owned(due), as_due),
+            _ => (Cow::Borrowed(recording), as_stamped),
+        };
+        let has_place = recording.runs().iter().map(|run| vec![true; run.poses().len()]).collect();
+        Self { recording, noise, has_place, gyroscope: None }
+    }
+
+    /// These with their yaw corrected by a gyroscope, and with its yaw between them; as they are
+    /// where it is not wanted or does not serve. They stand at their times, so it tells where they
+    /// look.
+    fn by(self, by_gyroscope: bool, tau: f64, settings: &settings::Evidence) -> Self {
+        if !by_gyroscope {
+            return self;
+        }
+        let corrected = match with_gyroscope(&self.recording, tau) {
+            Ok(corrected) => corrected,
+            Err(unfit) => return Self { gyroscope: Some(Err(unfit)), ..self },
+        };
+        let Filled { recording, has_place } =
+            corrected.filled(shortest_interval(&self.recording, settings));
+        Self {
+            recording: Cow::Owned(recording),
+            noise: noise(&corrected.recording, tau),
+            has_place,
+            gyroscope: Some(Ok(corrected.gyroscope)),
+        }
     }
 }
 
-/// The recording and its noise, with the yaw of its poses corrected by its gyroscope, and what that
-/// tells; both as they are where it does not serve.
-fn with_yaw_of_gyroscope(
-    recording: Cow<'_, Recording>,
-    measured: Noise,
-    tau: f64,
-) -> (Cow<'_, Recording>, Noise, Option<Result<Gyroscope, Unfit>>) {
-    match with_gyroscope(&recording, tau) {
-        Ok((corrected, found)) => {
-            let measured = noise(&corrected, tau);
-            (Cow::Owned(corrected), measured, Some(Ok(found)))
-        }
-        Err(unfit) => (recording, measured, Some(Err(unfit))),
-    }
+/// Shortest interval of poses that tells of motion, s: two readings of the tracks, so that none
+/// lacks one.
+fn shortest_interval(recording: &Recording, settings: &settings::Evidence) -> f64 {
+    let of_run = |run: &Run| usual_interval(run.tracks().iter().map(|reading| reading.t));
+    let longest = recording.runs().iter().map(of_run).fold(0.0, f64::max);
+    settings.min_pose_interval.max(2.0 * longest)
 }

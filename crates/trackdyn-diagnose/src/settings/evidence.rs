@@ -29,7 +29,7 @@ group! {
         min_reading_interval: f64 = 0.01, "s", [0.0, 1.0],
             "Motions in time take no shorter steps.",
             "Higher: quick changes vanish.";
-        /// Poses that come more often are averaged.
+        /// Quicker poses are averaged; between slower ones a gyroscope tells yaw.
         min_pose_interval: f64 = 0.1, "s", [0.0, 10.0],
             "Noise of quicker poses is hardly ever white.",
             "Lower: slow, and one error of a filter counts often; higher: quick changes vanish.";

@@ -108,6 +108,7 @@ mod tests {
             speeds: PerSide::default(),
             acceleration: PerSide::default(),
             follows: false,
+            has_place: [true; 2],
         }
     }
 

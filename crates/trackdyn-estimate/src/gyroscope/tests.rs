@@ -6,7 +6,7 @@ use crate::synthetic::{Synthetic, random_steps};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use trackdyn_recording::ImuSample;
+use trackdyn_recording::{ImuSample, PoseSample};
 
 const YAW_NOISE: f64 = 0.01;
 const BIAS: f64 = 0.02;
@@ -74,7 +74,8 @@ fn error(recording: &Recording, synthetic: &Synthetic) -> f64 {
 fn yaw_is_better_with_a_gyroscope_whose_errors_are_found() {
     let synthetic = synthetic(YAW_NOISE, 1);
     let raw = with_readings(&synthetic, 0.002, 1.0);
-    let (fused, found) = with_gyroscope(&raw, 0.0).expect("it serves");
+    let Corrected { recording: fused, gyroscope: found, .. } =
+        with_gyroscope(&raw, 0.0).expect("it serves");
     assert!((found.scale / SCALE - 1.0).abs() < 0.003, "{found:?}");
     // Between two readings the rate is taken as linear: a step in it seems 5 ms early.
     assert!((found.lag - LATE - 0.005).abs() < 0.002, "{found:?}");
@@ -122,7 +123,7 @@ fn a_jump_of_the_poses_stays_where_it_is() {
         Run::new(rows, &mut Vec::new())
     });
     let jumped = raw.with_runs(runs.collect());
-    let (fused, _) = with_gyroscope(&jumped, 0.0).expect("it serves");
+    let fused = with_gyroscope(&jumped, 0.0).expect("it serves").recording;
     for (run, jumped) in fused.runs().iter().zip(jumped.runs()) {
         let middle = run.poses().len() / 2;
         for k in middle - 20..middle + 20 {
@@ -140,7 +141,8 @@ fn the_interval_of_the_distance_holds_the_error_of_the_scale() {
     let (mut ratio, mut squares, mut without) = (0.0, 0.0, 0.0);
     for seed in 0..DRIVES {
         let raw = with_readings(&synthetic(YAW_NOISE, 10 + u64::from(seed)), 0.002, 1.0);
-        let (fused, found) = with_gyroscope(&raw, 0.0).expect("it serves");
+        let Corrected { recording: fused, gyroscope: found, .. } =
+            with_gyroscope(&raw, 0.0).expect("it serves");
         let gap = |recording: &Recording, yaw_scale: f64| {
             let options = Options { yaw_scale, ..Options::new(0.42) };
             icrs_alone(recording, &options).expect("it turns").gap()
@@ -153,4 +155,28 @@ fn the_interval_of_the_distance_holds_the_error_of_the_scale() {
     assert!(ratio < 2.0, "standard errors with and without it: {ratio}");
     // A mean square of 24 normal deviates lies below 1.9 but once in a hundred times.
     assert!(squares < 1.9 && without < 1.9, "errors over deviations: {squares}, {without}");
+}
+
+/// Poses once a second, beside a gyroscope at 100 Hz.
+#[test]
+fn yaw_between_rare_poses_is_that_of_the_gyroscope() {
+    let rare = Synthetic { pose_interval: 1.0, ..synthetic(0.002, 6) };
+    let corrected = with_gyroscope(&with_readings(&rare, 0.002, 1.0), 0.0).expect("it serves");
+    let Filled { recording, has_place } = corrected.filled(0.1);
+    let often = Synthetic { pose_interval: 0.1, position_noise: 0.0, yaw_noise: 0.0, ..rare };
+    let exact = often.recording().expect("long enough");
+    let mut seen = 0;
+    for ((run, exact), has_place) in recording.runs().iter().zip(exact.runs()).zip(&has_place) {
+        assert_eq!(run.poses().len(), has_place.len());
+        for (pose, has_place) in run.poses().iter().zip(has_place) {
+            let at = |exact: &PoseSample| (exact.t - pose.t + LATE).abs() < 1e-9;
+            let k = exact.poses().iter().position(at).expect("at even times");
+            assert_eq!(*has_place, k.is_multiple_of(10), "{k}");
+            let off = pose.pose.yaw - exact.poses()[k].pose.yaw;
+            // The poses' own noise, and a lag that is known to some milliseconds, at up to 1 rad/s.
+            assert!(off.abs() < 0.012, "{k}: {off}");
+            seen += 1;
+        }
+    }
+    assert!(seen > 1000, "{seen}");
 }

@@ -61,7 +61,7 @@ pub(super) fn stamps(triples: &[Triple], start: [Component; 3]) -> Option<([Comp
         let term = |triple: &&Triple| {
             let white = whitened(triple, &variances);
             white.map_or(f64::NEG_INFINITY, |(ln_determinant, square)| {
-                heavy_tailed(ln_determinant, square, TAILS)
+                heavy_tailed(ln_determinant, square, 3, TAILS)
             })
         };
         triples.iter().map(term).collect()

@@ -3,6 +3,7 @@
 use super::travel::travel_ratio;
 use trackdyn_core::robust::usual_interval;
 use trackdyn_core::{PerSide, real};
+use trackdyn_estimate::gyroscope::{Gyroscope, Unfit, with_gyroscope};
 use trackdyn_estimate::noise::noise;
 use trackdyn_estimate::{Clock, Error, Observations, SegmentOptions, Separation};
 use trackdyn_recording::{Recording as Motion, Run, TrackSample};
@@ -59,6 +60,9 @@ pub struct Driving {
     pub poses: Rows,
     /// Readings of an IMU.
     pub imu: Rows,
+    /// What its gyroscope would tell of the yaw of the poses, or why it does not serve; none
+    /// without one, or without poses.
+    pub gyroscope: Option<Result<Gyroscope, Unfit>>,
     /// Whether positions are known, and not yaw alone.
     pub has_positions: bool,
     /// Fastest track speed, m/s.
@@ -89,6 +93,13 @@ pub struct Driving {
     pub(super) observations: Observations,
 }
 
+/// What the gyroscope of a recording tells of its poses, at a clock offset, s.
+fn gyroscope(motion: &Motion, tau: f64) -> Option<Result<Gyroscope, Unfit>> {
+    let found = with_gyroscope(motion, tau).map(|corrected| corrected.gyroscope);
+    let is_there = motion.has_positions() && !matches!(found, Err(Unfit::NoReadings));
+    is_there.then_some(found)
+}
+
 impl Driving {
     pub(super) fn of(motion: &Motion, tau: Option<f64>) -> Self {
         let runs = motion.runs();
@@ -108,6 +119,7 @@ impl Driving {
             tracks: rows(|run| run.tracks().iter().map(|row| row.t).collect()),
             poses: rows(|run| run.poses().iter().map(|row| row.t).collect()),
             imu: rows(|run| run.imu().iter().map(|row| row.t).collect()),
+            gyroscope: gyroscope(motion, tau),
             has_positions: motion.has_positions(),
             fastest,
             clock,

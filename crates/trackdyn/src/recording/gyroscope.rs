@@ -14,8 +14,9 @@ impl Recording {
         let (Some(motion), None) = (usable, &self.gyroscope) else { return self.clone() };
         let Ok(clock) = Clock::of(motion, tau) else { return self.clone() };
         match with_gyroscope(motion, clock.tau()) {
-            Ok((corrected, found)) => {
-                let (seen, gyroscope) = (Seen::Motion(corrected), Some(Ok(found)));
+            Ok(corrected) => {
+                let seen = Seen::Motion(corrected.recording);
+                let gyroscope = Some(Ok(corrected.gyroscope));
                 Self { seen, gyroscope, path: self.path.clone(), time: self.time }
             }
             Err(unfit) => Self { gyroscope: Some(Err(unfit)), ..self.clone() },

@@ -134,7 +134,10 @@ fn commands(found: &Inspection, asked: &Asked) -> Vec<String> {
     }
     if is_ready(Use::Diagnose) {
         let folder = asked.out.join("diagnosis");
-        commands.push(line(Use::Diagnose, &[out(is_default, &folder)]));
+        let serves =
+            matches!(&found.content, Content::Motion(of) if matches!(of.gyroscope, Some(Ok(_))));
+        let gyroscope = serves.then(|| "--gyroscope".to_owned()).into_iter().collect();
+        commands.push(line(Use::Diagnose, &[gyroscope, out(is_default, &folder)]));
     }
     commands
 }

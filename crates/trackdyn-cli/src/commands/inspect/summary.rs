@@ -114,6 +114,13 @@ fn motion(text: &mut String, found: &Inspection, driving: &Driving) {
     let kind = if driving.has_positions { "" } else { " (yaw alone)" };
     let _ = writeln!(text, "  poses     {}{kind}", rows(&driving.poses));
     let _ = writeln!(text, "  gyro      {}", rows(&driving.imu));
+    match &driving.gyroscope {
+        Some(Ok(found)) => *text += &wrapped("            ", &found.to_string()),
+        Some(Err(reason)) => {
+            *text += &wrapped("            ", &format!("it does not serve beside poses: {reason}"));
+        }
+        None => {}
+    }
     *text += &wrapped(
         "  driving   ",
         &format!(

@@ -33,7 +33,7 @@ use fit::{Drive, Fit};
 use std::fmt;
 use std::ops::Range;
 use trackdyn_core::real;
-use trackdyn_core::robust::median;
+use trackdyn_core::robust::{median, usual_interval};
 use trackdyn_recording::{Recording, Run, UncheckedRun};
 use turned::Turned;
 
@@ -98,10 +98,19 @@ pub enum Unfit {
         /// Those that have.
         found: usize,
     },
+    /// Too few poses in a row to tell errors of the poses from its own.
+    #[error(
+        "at most {longest} poses in a row have readings of the gyroscope around them, too few to \
+         judge it by: take longer runs"
+    )]
+    ShortRows {
+        /// Most in a row.
+        longest: usize,
+    },
     /// Many poses have no readings around them.
     #[error(
-        "{found} of {of} poses have readings of the gyroscope around them: take the part that has \
-         (--time)"
+        "{found} of {of} poses have readings of the gyroscope around them, nine of ten needed: take \
+         the part that has (--time), or longer runs"
     )]
     OfAPart {
         /// Those that have.
@@ -213,20 +222,24 @@ fn corrected(drive: &Drive, fit: &Fit) -> Result<Corrected, Unfit> {
     Ok(Corrected { recording, gyroscope, rows })
 }
 
-/// Indices of the poses of each run at which what a fit leaves jumps, and stays where it went: an
-/// outlier comes back.
+/// Indices of the poses of each run at which what a fit leaves jumps, and stays where it went. What
+/// the robot turns between two poses is none: a stamp may be late by as much.
 fn jumps_of(drive: &Drive, fit: &Fit) -> Vec<Vec<usize>> {
     let middle = |of: &[f64]| median(&mut of.to_vec()).unwrap_or(0.0);
     let mut jumps = vec![Vec::new(); drive.turned.len()];
     let rows = drive.rows(fit.lag);
     for (row, residual) in rows.iter().zip(fit.residuals(&rows)) {
+        let usual = usual_interval(row.times.iter().copied());
         for k in 1..residual.len() {
             let change = residual[k] - residual[k - 1];
-            let expected = fit.level.of_change(row.times[k] - row.times[k - 1]);
+            let expected = fit.level.of_change(row.times[k] - row.times[k - 1]).sqrt();
+            let late = usual * fit.rate(row, k - 1).abs().max(fit.rate(row, k).abs());
             let before = &residual[k.saturating_sub(MIN_ROW)..k];
             let after = &residual[k..residual.len().min(k + MIN_ROW)];
-            let is_long = change.powi(2) > MIN_JUMP.powi(2) * expected;
-            if is_long && (middle(after) - middle(before)).abs() > change.abs() / 2.0 {
+            let is_long = change.abs() > MIN_JUMP * expected + late;
+            // An outlier comes back, and what drifts goes on.
+            let stays = (middle(after) - middle(before)) / change;
+            if is_long && (0.5..2.0).contains(&stays) {
                 jumps[row.run].push(row.poses.start + k);
             }
         }

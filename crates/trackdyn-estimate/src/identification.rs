@@ -11,6 +11,7 @@ use crate::least_squares::{
 use crate::noise::{Noise, noise};
 use crate::observations::Observations;
 use crate::parameters::{Free, Parameters};
+use crate::residual_noise::residual_noise;
 use crate::response::Response;
 use crate::scatter::scatter;
 use crate::sensor::Nuisance;
@@ -75,6 +76,17 @@ pub struct Fit {
     pub refused: Vec<Doubt>,
 }
 
+/// What the weights of segments come from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Weights {
+    /// The noise that the recording shows at rest or in steady driving, or that its maker states.
+    Noise,
+    /// What constant ICRs leave, which bounds the noise from above, where it shows in no other way.
+    Residuals(SegmentNoise),
+    /// All segments count alike: constant ICRs are not found either.
+    Equal,
+}
+
 /// What was found.
 #[derive(Clone, Debug)]
 pub struct Identification {
@@ -82,8 +94,8 @@ pub struct Identification {
     pub clock: Clock,
     /// Noise of the recording.
     pub noise: Noise,
-    /// Whether the weights come from that noise; else all segments count alike.
-    pub weighted_by_noise: bool,
+    /// What the weights come from.
+    pub weights: Weights,
     /// How the poses follow the track speeds; none where the recording is too short to tell. Where
     /// they do not follow at once, all below is of track speeds that are weighted by it.
     pub response: Option<Response>,
@@ -145,7 +157,7 @@ pub fn identify_unless_stopped(
             least_squares.as_ref().map_or(Vec::new(), |estimate| doubts(estimate, options.gauge));
         let contradictions = least_squares.as_ref().map_or(Vec::new(), |estimate| {
             let spin = spin_test.as_ref().ok();
-            let noise = seen.weighting.noise();
+            let noise = seen.known_noise();
             let genetic = Some(&genetic_estimate);
             let mut found =
                 Contradiction::of_motions(estimate, genetic, spin, observations, noise, gauge);
@@ -183,7 +195,7 @@ pub fn identify_unless_stopped(
         fits,
         clock: seen.clock,
         noise: seen.noise,
-        weighted_by_noise: matches!(seen.weighting, Weighting::Noise(_)),
+        weights: seen.weights,
         spin_test: seen.spin_test,
     })
 }
@@ -207,7 +219,7 @@ pub fn contradictions(
 ) -> Result<Vec<Contradiction>, Error> {
     let seen = Seen::of(recording, options)?;
     let (estimate, _) = seen.least_squares(Free::Icrs);
-    let (spin, noise) = (seen.spin_test.as_ref().ok(), seen.weighting.noise());
+    let (spin, noise) = (seen.spin_test.as_ref().ok(), seen.known_noise());
     let (observations, gauge) = (&seen.observations, options.gauge);
     Ok(Contradiction::of_motions(&estimate?, None, spin, observations, noise, gauge))
 }
@@ -222,6 +234,7 @@ struct Seen<'a> {
     observations: Observations,
     noise: Noise,
     spin_test: Result<SpinTest, Error>,
+    weights: Weights,
     weighting: Weighting,
 }
 
@@ -267,7 +280,12 @@ impl<'a> Seen<'a> {
         let stated = recording.stated_noise().map(SegmentNoise::stated);
         let known = SegmentNoise::measured(&noise, gap).or(stated);
         let lever = options.gauge / 2.0;
-        let weighting = known.map_or(Weighting::Distance { lever }, Weighting::Noise);
+        let remaining = || residual_noise(&observations, options.gauge);
+        let (weights, weighting) = match (known, known.is_none().then(remaining).flatten()) {
+            (Some(noise), _) => (Weights::Noise, Weighting::Noise(noise)),
+            (None, Some(noise)) => (Weights::Residuals(noise), Weighting::Noise(noise)),
+            (None, None) => (Weights::Equal, Weighting::Distance { lever }),
+        };
         let observations = match weighting {
             Weighting::Noise(_) => observations.moving_by(moves(&observations, gap)),
             Weighting::Distance { .. } => observations,
@@ -281,8 +299,14 @@ impl<'a> Seen<'a> {
             observations,
             noise,
             spin_test,
+            weights,
             weighting,
         })
+    }
+
+    /// The noise that shows without a model, or is stated.
+    fn known_noise(&self) -> Option<&SegmentNoise> {
+        self.weighting.noise().filter(|_| self.weights == Weights::Noise)
     }
 
     /// Least squares, and why properties of the sensor that were asked for are not fitted.

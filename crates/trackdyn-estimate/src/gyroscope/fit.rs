@@ -2,7 +2,7 @@
 
 use super::level::Level;
 use super::turned::Turned;
-use super::{MIN_ROW, Unfit};
+use super::{MIN_POSES, MIN_ROW, Unfit};
 use crate::gauss_newton::Loss;
 use nalgebra::{Matrix2, Vector2};
 use std::ops::Range;
@@ -101,9 +101,14 @@ impl Fit {
         let starts = [0.0, tau].into_iter();
         let lags =
             starts.flat_map(|at| (-steps..=steps).map(move |step| at + LAG_STEP * f64::from(step)));
-        let misfit = |lag: f64| Some((Self::start(lag).with_best_scale(drive)?, lag));
-        let best = lags.filter_map(misfit).min_by(|a, b| a.0.total_cmp(&b.0));
-        best.map(|(_, lag)| lag).ok_or(Unfit::TooFewPoses { found: 0 })
+        let covered = |lag: f64| drive.rows(lag).iter().map(|row| row.poses.len()).sum::<usize>();
+        let lags: Vec<(f64, usize)> = lags.map(|lag| (lag, covered(lag))).collect();
+        let most = lags.iter().map(|(_, poses)| *poses).max().unwrap_or(0);
+        // A few poses scatter little by chance.
+        let often = lags.into_iter().filter(|(_, poses)| 2 * poses >= most);
+        let misfit = |(lag, _): (f64, usize)| Some((Self::start(lag).with_best_scale(drive)?, lag));
+        let best = often.filter_map(misfit).min_by(|a, b| a.0.total_cmp(&b.0));
+        best.map(|(_, lag)| lag).ok_or(Unfit::TooFewPoses { found: most })
     }
 
     /// The best fit near a lag, s.
@@ -118,8 +123,13 @@ impl Fit {
             let rows = drive.rows(fit.lag);
             let residuals = rows.iter().map(|row| &row.times[..]).zip(fit.residuals(&rows));
             let Some(level) = Level::of(&residuals.collect::<Vec<_>>()) else {
-                let found = rows.iter().map(|row| row.poses.len()).sum();
-                return Err(Unfit::TooFewPoses { found });
+                let rows = rows.iter().map(|row| row.poses.len());
+                let (found, longest) = (rows.clone().sum(), rows.max().unwrap_or(0));
+                return Err(if found < MIN_POSES {
+                    Unfit::TooFewPoses { found }
+                } else {
+                    Unfit::ShortRows { longest }
+                });
             };
             fit.level = level;
             if step.x.abs() < 1e-7 && step.y.abs() < 1e-6 {
@@ -159,6 +169,11 @@ impl Fit {
             without.collect()
         };
         rows.chunk_by(|a, b| a.run == b.run).flat_map(of_run).collect()
+    }
+
+    /// True yaw rate at a pose of a row, rad/s.
+    pub(super) fn rate(&self, row: &Row, pose: usize) -> f64 {
+        self.scale * row.turned.at(row.times[pose] - self.lag).1
     }
 
     /// A column of some rows, whitened row by row.

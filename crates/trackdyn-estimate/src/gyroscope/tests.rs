@@ -133,6 +133,42 @@ fn a_jump_of_the_poses_stays_where_it_is() {
     }
 }
 
+/// Stamps of poses on a grid of 0.1 s, some a step late, while the robot turns: none of it is a
+/// jump.
+#[test]
+fn late_stamps_are_no_jumps() {
+    let synthetic = synthetic(0.002, 5);
+    let raw = with_readings(&synthetic, 0.002, 1.0);
+    let mut random = ChaCha8Rng::seed_from_u64(9);
+    let runs = raw.runs().iter().map(|run| {
+        let mut rows = run.clone().into_rows();
+        let poses = rows.poses.samples.clone();
+        for k in 1..poses.len() {
+            let late: f64 = StandardNormal.sample(&mut random);
+            if late > 0.5 {
+                rows.poses.samples[k].pose = poses[k - 1].pose;
+            }
+        }
+        Run::new(rows, &mut Vec::new())
+    });
+    let late = raw.with_runs(runs.collect());
+    let Corrected { gyroscope, .. } = with_gyroscope(&late, 0.0).expect("it serves");
+    let of: usize = late.runs().iter().map(|run| run.poses().len()).sum();
+    assert!(gyroscope.poses + 4 >= of, "{gyroscope:?} of {of}");
+    assert!(gyroscope.error_with_it < 0.1 * gyroscope.error_of_poses, "{gyroscope:?}");
+}
+
+/// Windows of two seconds, cut from a drive, are too short to judge a gyroscope by.
+#[test]
+fn short_rows_say_so() {
+    let short = Synthetic {
+        schedules: (0..60).map(|seed| random_steps(4, 0.25, 0.8, seed)).collect(),
+        ..synthetic(0.002, 8)
+    };
+    let refused = with_gyroscope(&with_readings(&short, 0.002, 1.0), 0.0).expect_err("too short");
+    assert!(matches!(refused, Unfit::ShortRows { .. }), "{refused:?}");
+}
+
 /// With its scale unknown, a gyroscope says little of the distance of the ICRs that the total
 /// turning of the poses does not say. What it says must have an honest interval.
 #[test]

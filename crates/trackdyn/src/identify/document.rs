@@ -4,7 +4,7 @@ use super::{FILES, MotionFit};
 use crate::document::{ClockTable, GyroscopeTable, Rounded, to_toml};
 use serde::Serialize;
 use trackdyn_estimate::Interval;
-use trackdyn_estimate::identification::Fit;
+use trackdyn_estimate::identification::{Fit, Weights};
 use trackdyn_estimate::noise::Component;
 use trackdyn_estimate::{
     Contradiction, Doubt, Error, Estimate, Free, Identification, Parameters, SpinTest,
@@ -111,13 +111,7 @@ pub(super) fn text(identified: &MotionFit, source: &Source) -> String {
     let mut method = vec![of_spin_test(&found.spin_test, gauge)];
     for (fit, file) in found.fits.iter().zip(FILES) {
         method.push(of_genetic(fit, gauge));
-        method.push(of_least_squares(
-            fit,
-            gauge,
-            found.weighted_by_noise,
-            file,
-            identified.sourced.force,
-        ));
+        method.push(of_least_squares(fit, gauge, found.weights, file, identified.sourced.force));
     }
     to_toml(&File {
         schema: "trackdyn.identification/1",
@@ -152,7 +146,11 @@ fn of_noise(found: &Identification) -> NoiseTable {
     let white = |component: &Component| Rounded(component.white);
     let encoders = found.noise.encoders.map(|noise| noise.map(|noise| Rounded(noise.deviation)));
     NoiseTable {
-        weights: if found.weighted_by_noise { "noise" } else { "equal" },
+        weights: match found.weights {
+            Weights::Noise => "noise",
+            Weights::Residuals(_) => "residuals",
+            Weights::Equal => "equal",
+        },
         pose_forward_m: poses.map(|poses| white(&poses.forward)),
         pose_lateral_m: poses.map(|poses| white(&poses.lateral)),
         pose_yaw_rad: poses.map(|poses| white(&poses.yaw)),
@@ -236,7 +234,7 @@ fn of_genetic(fit: &Fit, gauge: f64) -> MethodTable {
 fn of_least_squares(
     fit: &Fit,
     gauge: f64,
-    by_noise: bool,
+    weights: Weights,
     file: &'static str,
     force: bool,
 ) -> MethodTable {
@@ -250,8 +248,8 @@ fn of_least_squares(
             file: is_written.then_some(file),
             contradictions: fit.contradictions.iter().map(Contradiction::to_string).collect(),
             cost: Some(estimate.cost),
-            cost_unit: Some(if by_noise { "1" } else { "m^2" }),
-            whitened_rms: by_noise.then_some(Rounded(estimate.whitened_rms)),
+            cost_unit: Some(if weights == Weights::Equal { "m^2" } else { "1" }),
+            whitened_rms: (weights == Weights::Noise).then_some(Rounded(estimate.whitened_rms)),
             blocks: Some(estimate.filled_blocks),
             estimate: of_estimate(estimate, gauge),
             ..table.refused(fit.doubts.iter().map(Doubt::to_string).collect())

@@ -115,7 +115,7 @@ impl fmt::Display for Lack {
             Self::Turning(of) => write!(f, "turning both ways: {}", turns(of)),
             Self::Spins(of) => write!(f, "turning on the spot both ways: {}", turns(of)),
             Self::Straight(of) => write!(f, "straight driving: {of:.1} m"),
-            Self::Noise => f.write_str("the noise of the poses: they show none"),
+            Self::Noise => f.write_str("rest or steady driving, which show the noise of the poses"),
             Self::Duration(of) => write!(f, "time: {of:.0} s"),
         }
     }

@@ -3,8 +3,9 @@
 use crate::wrapped::wrapped;
 use std::fmt::Write;
 use trackdyn::crates::core::lines::counted;
-use trackdyn::crates::estimate::identification::Fit;
+use trackdyn::crates::estimate::identification::{Fit, Weights};
 use trackdyn::crates::estimate::noise::PoseNoise;
+use trackdyn::crates::estimate::weighting::SegmentNoise;
 use trackdyn::crates::estimate::{
     Clock, Contradiction, Estimate, Free, Identification, Interval, Nuisance, Parameters, Response,
 };
@@ -53,7 +54,7 @@ pub fn text(recording: &Recording, gauge: &Gauge, fit: &MotionFit) -> String {
         }
     }
     for fit in &found.fits {
-        self::fit(&mut text, fit, gauge.metres(), found.weighted_by_noise);
+        self::fit(&mut text, fit, gauge.metres(), found.weights == Weights::Noise);
     }
     text
 }
@@ -172,7 +173,20 @@ fn noise(text: &mut String, found: &Identification) {
             poses.triples,
             poses.method
         ),
-        None => "not measurable: all segments count alike".to_owned(),
+        None => match found.weights {
+            Weights::Noise => "as the recording states it".to_owned(),
+            Weights::Residuals(SegmentNoise { pose, .. }) => {
+                let [forward, lateral, yaw] = pose.map(|variance| 1e3 * variance.sqrt());
+                format!(
+                    "poses at most {} mm forward, {} mm aside, {} mrad (what constant ICRs leave: \
+                     nothing rests or drives steadily)",
+                    or_below(forward, 1),
+                    or_below(lateral, 1),
+                    or_below(yaw, 2)
+                )
+            }
+            Weights::Equal => "not measurable: all segments count alike".to_owned(),
+        },
     };
     *text += &wrapped("  noise      ", &line);
 }

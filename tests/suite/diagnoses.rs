@@ -17,7 +17,7 @@ use trackdyn_drive::sensors::{Imu, Preset};
 use trackdyn_drive::{ScheduleKind, ScheduleOptions, Sensors};
 use trackdyn_estimate::noise::noise;
 use trackdyn_model::kinematics::Source;
-use trackdyn_recording::Recording;
+use trackdyn_recording::{Recording, Run};
 use trackdyn_tests::concealed::{
     Drive, diagnosed, diagnosed_by, diagnosed_by_gyroscope, named, owned, sensors,
 };
@@ -106,15 +106,33 @@ fn a_gyroscope_shows_what_lies_between_poses() {
     sensors.pose.interval = 1.0;
     sensors.imu = Some(Imu::default());
     let recording = recording_by(&[&concealed], &sensors);
-    let found = diagnosed_by_gyroscope(&recording, &owned(&[&concealed])).expect("an answer");
+    // It is silent for two seconds of one run: poses stay there as they are.
+    let with_gap = recording.runs().iter().enumerate().map(|(index, run)| {
+        let mut rows = run.clone().into_rows();
+        rows.imu.samples.retain(|row| index > 0 || !(5.0..7.0).contains(&row.t));
+        Run::new(rows, &mut Vec::new())
+    });
+    let recording = recording.with_runs(with_gap.collect());
+    let file = owned(&[&concealed]);
+    let found = diagnosed_by_gyroscope(&recording, &file).expect("an answer");
     let is_lag = |one: &&Missing| one.verdict.effect.card().id == "split-lag";
     let lag = found.answer.missing.iter().find(is_lag);
     let lag = &lag.unwrap_or_else(|| panic!("{:?}", named(&found))).parameters[0];
     assert!((lag.low..=lag.high).contains(&LAG), "{} to {}", lag.low, lag.high);
     assert!(lag.high - lag.low < 0.01, "{} to {}", lag.low, lag.high);
-    let samples = found.evidence.seen.samples();
-    let unseen = samples.iter().filter(|sample| !sample.has_place[1]).count();
-    assert!(10 * unseen > 8 * samples.len(), "{unseen} of {}", samples.len());
+
+    let gauge = file.vehicle.gauge;
+    let evidence = |by_gyroscope: bool| {
+        Evidence::of_drive(&recording, gauge, &Settings::default(), by_gyroscope, None)
+            .expect("enough")
+    };
+    let [without, with] = [false, true].map(evidence);
+    let time = |of: &Evidence| of.samples().iter().map(|sample| sample.duration).sum::<f64>();
+    assert!(time(&with) > 0.98 * time(&without), "{} {}", time(&with), time(&without));
+    let count = [&with, &without].map(|of| of.samples().len());
+    assert!(count[0] > 5 * count[1], "{count:?}");
+    let places = |of: &Evidence| of.samples().iter().filter(|one| one.has_place[1]).count();
+    assert_eq!(places(&with), places(&without));
 }
 
 /// The diagnosis of a drive by hand on which this is concealed.

@@ -20,7 +20,8 @@ pub fn say_gyroscopes<'a>(found: impl IntoIterator<Item = &'a Result<Gyroscope, 
 pub fn say_unused_gyroscopes(recordings: &[Recording], tau: Option<f64>) {
     for recording in recordings {
         if let Some(Ok(found)) = recording.with_gyroscope(tau).gyroscope() {
-            note(format_args!("its gyroscope is not used; with --gyroscope {found}"));
+            let name = recording.name();
+            note(format_args!("{name}: its gyroscope is not used; with --gyroscope {found}"));
         }
     }
 }

@@ -9,6 +9,7 @@ mod points;
 mod series;
 mod ticks;
 
+use crate::error::Error;
 use crate::settings::Settings;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -48,11 +49,37 @@ pub struct Sample {
 
 /// The samples of each run, by their indices.
 pub(crate) fn run_ranges(samples: &[Sample]) -> impl Iterator<Item = Range<usize>> + '_ {
-    samples.chunk_by(|a, b| a.run == b.run).scan(0, |end, run| {
+    ranges(samples.chunk_by(|a, b| a.run == b.run))
+}
+
+/// The samples from each place that was seen to the next, by their indices: one each, but where a
+/// gyroscope tells the yaw between.
+pub(crate) fn between_places(samples: &[Sample]) -> impl Iterator<Item = Range<usize>> + '_ {
+    ranges(samples.chunk_by(|a, b| b.follows && !a.has_place[1]))
+}
+
+/// Indices of slices that follow each other.
+fn ranges<'a>(
+    slices: impl Iterator<Item = &'a [Sample]> + 'a,
+) -> impl Iterator<Item = Range<usize>> + 'a {
+    slices.scan(0, |end, slice| {
         let begin = *end;
-        *end += run.len();
+        *end += slice.len();
         Some(begin..*end)
     })
+}
+
+/// Checks that samples are as many as are needed, from one place to the next.
+///
+/// # Errors
+/// [`Error::TooFewSegments`].
+pub(crate) fn check_number(samples: &[Sample], needed: usize) -> Result<(), Error> {
+    let duration = |range: Range<usize>| samples[range].iter().map(|sample| sample.duration).sum();
+    let durations: Vec<f64> = between_places(samples).map(duration).collect();
+    if durations.len() < needed {
+        return Err(Error::too_few_segments(durations.into_iter(), needed));
+    }
+    Ok(())
 }
 
 /// Readings of a run with these speeds of each track at each reading, m/s.

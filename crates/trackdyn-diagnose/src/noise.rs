@@ -23,7 +23,7 @@
 
 mod flexible;
 
-use crate::evidence::{Sample, run_ranges};
+use crate::evidence::{between_places, run_ranges};
 use crate::fit::Fit;
 use crate::progress::{Cancelled, Watch};
 use crate::weighted::Weighted;
@@ -154,7 +154,7 @@ fn outliers(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) ->
     let samples = evidence.samples();
     let pose = |motion: Vector3<f64>| Pose::new(motion[0], motion[1], motion[2]);
     let motions = evidence.motions();
-    let joined = joined(samples);
+    let joined: Vec<Range<usize>> = between_places(samples).collect();
     let mut lost: Vec<usize> = Vec::new();
     let mut outlier: Option<usize> = None;
     for (index, pair) in joined.windows(2).enumerate() {
@@ -194,22 +194,11 @@ fn outliers(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) ->
     lost
 }
 
-/// Samples in a row from one pose whose place was seen to the next.
-fn joined(samples: &[Sample]) -> Vec<Range<usize>> {
-    let rows = samples.chunk_by(|a, b| b.follows && !a.has_place[1]);
-    let row = |end: &mut usize, row: &[Sample]| {
-        let start = *end;
-        *end += row.len();
-        Some(start..*end)
-    };
-    rows.scan(0, row).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::evidence::Evidence;
     use crate::evidence::planned::{PlannedRun, READINGS};
+    use crate::evidence::{Evidence, Sample};
     use crate::settings::Settings;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;

@@ -3,10 +3,12 @@
 //! # Law
 //! A pose at time t has the yaw ψ = ψ₀ + s G(t − τ) + b t + x(t) + o(t) + e. G is the integral of
 //! the measured yaw rate, s the gyroscope's scale, τ how late poses are against it, b its bias in
-//! the run, x a random walk of both, o an error that wanders about zero and e the white noise of
-//! the pose. s, τ and b follow from generalised least squares with Huber's loss; the variances of
-//! x, o and e from the median squares of differences over 1, 2, 4, ... poses. A Kalman smoother
-//! then gives x, and with the gyroscope's share of it a yaw without most of the other errors.
+//! the session, x a random walk of both, o an error that wanders about zero and e the white noise
+//! of the pose. s, τ and b follow from generalised least squares with Huber's loss: τ from quick
+//! changes, and s from means over two seconds, since a filter of the poses or a late stamp makes
+//! quick changes small. The variances of x, o and e follow from the median squares of differences
+//! over 1, 2, 4, ... poses. A Kalman smoother then gives x, and with the gyroscope's share of it a
+//! yaw without most of the other errors.
 //!
 //! A gyroscope that is no better than the poses is left out. Where the yaw of the poses jumps, as
 //! at the closure of a loop, smoothing begins anew.
@@ -52,6 +54,9 @@ const MIN_JUMP: f64 = 6.0;
 
 /// Largest error that is left of that of the poses for a gyroscope to serve.
 const MAX_ERROR_RATIO: f64 = 0.8;
+
+/// Largest part of the noise of a gyroscope by which poses part from it that have their yaw of it.
+const MAX_OWN: f64 = 0.5;
 
 /// Scales that a gyroscope about the vertical may have, with its tilt.
 const SCALES: [f64; 2] = [0.8, 1.25];
@@ -109,8 +114,8 @@ pub enum Unfit {
     },
     /// Many poses have no readings around them.
     #[error(
-        "{found} of {of} poses have readings of the gyroscope around them, nine of ten needed: take \
-         the part that has (--time), or longer runs"
+        "{found} of {of} poses have readings of the gyroscope around them, nine of ten needed: \
+         take the part that has (--time), or longer runs"
     )]
     OfAPart {
         /// Those that have.
@@ -205,7 +210,10 @@ fn corrected(drive: &Drive, fit: &Fit) -> Result<Corrected, Unfit> {
     let of_poses = fit.level.of_change(1.0) - share * fit.level.walk;
     let (without, with_it) =
         (of_poses.sqrt(), (noise * (1.0 - share)).max(noise.min(of_poses) * share).sqrt());
-    if with_it > MAX_ERROR_RATIO * without {
+    // Poses that part from it by less than its own noise have their yaw of it: it adds what lies
+    // between them.
+    let is_its_own = fit.level.of_change(1.0) < MAX_OWN * noise;
+    if with_it > MAX_ERROR_RATIO * without && !is_its_own {
         return Err(Unfit::NoBetter { with_it, without });
     }
     let gyroscope = Gyroscope {
@@ -222,8 +230,9 @@ fn corrected(drive: &Drive, fit: &Fit) -> Result<Corrected, Unfit> {
     Ok(Corrected { recording, gyroscope, rows })
 }
 
-/// Indices of the poses of each run at which what a fit leaves jumps, and stays where it went. What
-/// the robot turns between two poses is none: a stamp may be late by as much.
+/// Indices of the poses of each run at which what a fit leaves jumps, and stays where it went. A
+/// change no larger than what the robot turns within a pose interval is no jump: a stamp may be
+/// late by as much.
 fn jumps_of(drive: &Drive, fit: &Fit) -> Vec<Vec<usize>> {
     let middle = |of: &[f64]| median(&mut of.to_vec()).unwrap_or(0.0);
     let mut jumps = vec![Vec::new(); drive.turned.len()];
@@ -237,9 +246,9 @@ fn jumps_of(drive: &Drive, fit: &Fit) -> Vec<Vec<usize>> {
             let before = &residual[k.saturating_sub(MIN_ROW)..k];
             let after = &residual[k..residual.len().min(k + MIN_ROW)];
             let is_long = change.abs() > MIN_JUMP * expected + late;
-            // An outlier comes back, and what drifts goes on.
-            let stays = (middle(after) - middle(before)) / change;
-            if is_long && (0.5..2.0).contains(&stays) {
+            // An outlier comes back.
+            let stays = (middle(after) - middle(before)).abs() > change.abs() / 2.0;
+            if is_long && stays {
                 jumps[row.run].push(row.poses.start + k);
             }
         }

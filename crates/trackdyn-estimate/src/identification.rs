@@ -80,7 +80,7 @@ pub struct Fit {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Weights {
     /// The noise that the recording shows at rest or in steady driving, or that its maker states.
-    Noise,
+    Noise(SegmentNoise),
     /// What constant ICRs leave, which bounds the noise from above, where it shows in no other way.
     Residuals(SegmentNoise),
     /// All segments count alike: constant ICRs are not found either.
@@ -281,10 +281,14 @@ impl<'a> Seen<'a> {
         let known = SegmentNoise::measured(&noise, gap).or(stated);
         let lever = options.gauge / 2.0;
         let remaining = || residual_noise(&observations, options.gauge);
-        let (weights, weighting) = match (known, known.is_none().then(remaining).flatten()) {
-            (Some(noise), _) => (Weights::Noise, Weighting::Noise(noise)),
-            (None, Some(noise)) => (Weights::Residuals(noise), Weighting::Noise(noise)),
-            (None, None) => (Weights::Equal, Weighting::Distance { lever }),
+        let weights = match (known, known.is_none().then(remaining).flatten()) {
+            (Some(noise), _) => Weights::Noise(noise),
+            (None, Some(noise)) => Weights::Residuals(noise),
+            (None, None) => Weights::Equal,
+        };
+        let weighting = match weights {
+            Weights::Noise(noise) | Weights::Residuals(noise) => Weighting::Noise(noise),
+            Weights::Equal => Weighting::Distance { lever },
         };
         let observations = match weighting {
             Weighting::Noise(_) => observations.moving_by(moves(&observations, gap)),
@@ -306,7 +310,10 @@ impl<'a> Seen<'a> {
 
     /// The noise that shows without a model, or is stated.
     fn known_noise(&self) -> Option<&SegmentNoise> {
-        self.weighting.noise().filter(|_| self.weights == Weights::Noise)
+        match &self.weights {
+            Weights::Noise(noise) => Some(noise),
+            Weights::Residuals(_) | Weights::Equal => None,
+        }
     }
 
     /// Least squares, and why properties of the sensor that were asked for are not fitted.

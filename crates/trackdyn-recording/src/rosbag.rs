@@ -24,6 +24,7 @@ mod chain;
 mod clock;
 mod collector;
 mod compressed;
+mod course;
 mod date;
 mod definition;
 mod dynamic_joints;

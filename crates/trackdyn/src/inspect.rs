@@ -199,7 +199,7 @@ impl Inspection {
     /// `speed_unit`, m; it is 1 otherwise.
     fn of_motion(recording: &Recording, speed_unit: f64, settings: &InspectSettings) -> Self {
         let Some(motion) = recording.motion() else { unreachable!("no table of points") };
-        let driving = Driving::of(motion, settings.tau);
+        let driving = Driving::of(motion, settings.tau).with_gyroscope(motion);
         let (over_time, lacks) = (
             OverTime::of(motion, &driving, speed_unit, settings.parameters.as_ref()),
             lack::of_driving(motion, &driving, speed_unit),

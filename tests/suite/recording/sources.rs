@@ -76,6 +76,15 @@ impl Message {
         self.numbers(&quaternion(yaw)).numbers(&[covariance]).numbers(&[0.0; 8 + 3 + 9 + 3 + 9])
     }
 
+    /// A yaw rate without an orientation.
+    fn imu_rate(self, rate: f64) -> Self {
+        let none = self.numbers(&quaternion(0.0)).numbers(&[-1.0]).numbers(&[0.0; 8]);
+        none.numbers(&[0.0, 0.0, rate])
+            .numbers(&[0.0; 9])
+            .numbers(&[0.0, 0.0, 9.81])
+            .numbers(&[0.0; 9])
+    }
+
     pub(super) fn joints(t: f64, speeds: [f64; 2]) -> Self {
         let names = Self::stamped(t, "").count(2).text("left").text("right");
         names.count(0).count(2).numbers(&speeds).count(0)
@@ -228,6 +237,22 @@ fn fixes_are_poses_with_the_yaw_of_an_imu_and_are_refused_without() {
     };
     assert_eq!(recording.warnings().iter().filter(skipped).count(), 1);
     assert!(recording.warnings().iter().any(|one| matches!(one, Warning::FromFixes { .. })));
+
+    // A gyroscope that counts from nowhere is turned to the course.
+    let rate = |step: usize, t: f64| {
+        let [_, turn] = truth()[step].2;
+        Some(Message::stamped(t, "imu").imu_rate(turn))
+    };
+    let path = bag(folder.path(), &[JOINTS, fixes, ("/imu", kind, &rate)]);
+    let recording = rosbag::read(&path, &options()).expect("readable");
+    let poses = recording.runs()[0].poses();
+    assert!(poses.len() > 180, "{}", poses.len());
+    for row in poses {
+        let row_truth = all.iter().find(|(t, ..)| (t - row.t).abs() < 1e-6).expect("a step").1;
+        // A rate holds for 0.1 s, in which the robot turns by 0.05 rad.
+        assert!((row.pose.yaw - row_truth[2]).abs() < 0.06, "{} {}", row.pose.yaw, row_truth[2]);
+    }
+    assert!(recording.warnings().iter().any(|one| matches!(one, Warning::FromCourse { .. })));
 
     let named = RosbagOptions { pose_topic: Some("/fix".into()), ..options() };
     let refused = |topics: &[Topic]| {

@@ -6,7 +6,8 @@
 //! (docs/validation.md says what is wrong with the others).
 
 use crate::validation::recordings::{at_20_hertz, identified, steady};
-use trackdyn_estimate::Nuisance;
+use trackdyn_estimate::identification::{Options, icrs_alone};
+use trackdyn_estimate::{Clock, Interval, Nuisance, with_gyroscope};
 use trackdyn_recording::{Recording, RunList};
 use trackdyn_tests::real_recording;
 
@@ -49,6 +50,33 @@ fn distances_agree_with_independent_fits() {
         assert!(page.iter().any(is_there), "docs/validation.md: {name} {row}");
         assert!(error.abs() < GOAL.max(chance), "{name}: {error:+.1} %");
     }
+}
+
+/// Poses of the Warthog on grass have stamps that err by 0.1 s; its gyroscope has not. The
+/// independent fit is of its yaw rates.
+#[test]
+fn a_gyroscope_halves_the_error_of_the_distance_on_grass() {
+    const BY_GYROSCOPE: f64 = 1.823;
+    let Some(recording) = real_recording("warthog-grass") else { return };
+    let clock = Clock::of(&recording, None).expect("turns");
+    let corrected = with_gyroscope(&recording, clock.tau()).expect("it serves");
+    let gap = |recording: &Recording, yaw_scale: f64| {
+        let options = Options { yaw_scale, ..Options::new(1.08) };
+        icrs_alone(recording, &options).expect("determined").gap()
+    };
+    let without = gap(&recording, 0.0);
+    let with = gap(&corrected.recording, corrected.gyroscope.scale_deviation);
+    let row = |of: &Interval| {
+        let error = 100.0 * (of.value / BY_GYROSCOPE - 1.0);
+        format!("{:.3} ({:.3}), {error:+.1} %", of.value, of.deviation)
+    };
+    let sentence = format!("{}; with `--gyroscope` {}", row(&without), row(&with));
+    println!("{sentence}");
+    assert!(with.deviation < 0.7 * without.deviation, "{sentence}");
+    assert!((with.value / BY_GYROSCOPE - 1.0).abs() < GOAL / 100.0, "{sentence}");
+    let page = include_str!("../../../docs/validation.md").split_whitespace();
+    let page = page.collect::<Vec<_>>().join(" ");
+    assert!(page.contains(&sentence), "docs/validation.md: {sentence}");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 use crate::base::Base;
 use crate::error::Error;
-use crate::evidence::{Evidence, Origin};
+use crate::evidence::{Evidence, Origin, check_number};
 use crate::fit::Fit;
 use crate::noise::with_remaining_noise;
 use crate::progress::{Cancelled, Watch};
@@ -32,9 +32,8 @@ impl Split {
         let seen = evidence.of_runs(&is_seen);
         let is_drive = matches!(seen.origin(), Origin::Drive(_));
         let needed = evidence.settings().evidence.min_segments;
-        if is_drive && seen.samples().len() < needed {
-            let durations = seen.samples().iter().map(|sample| sample.duration);
-            return Err(Error::too_few_segments(durations, needed));
+        if is_drive {
+            check_number(seen.samples(), needed)?;
         }
         let unseen = (!held_out.is_empty()).then(|| evidence.of_runs(&is_held_out));
         if unseen.as_ref().is_some_and(|unseen| unseen.samples().is_empty()) {

@@ -1,6 +1,6 @@
 //! Evidence from recordings of driving.
 
-use super::{Evidence, Origin, Sample};
+use super::{Evidence, Origin, Sample, between_places, check_number};
 use crate::error::Error;
 use crate::settings::{self, Settings};
 use nalgebra::Vector3;
@@ -10,7 +10,7 @@ use trackdyn_core::robust::usual_interval;
 use trackdyn_core::{PerSide, Pose};
 use trackdyn_estimate::blocks::Blocks;
 use trackdyn_estimate::frames::share_a_frame;
-use trackdyn_estimate::gyroscope::{Filled, Gyroscope, Unfit, with_gyroscope};
+use trackdyn_estimate::gyroscope::{Corrected, Filled, Unfit, with_gyroscope};
 use trackdyn_estimate::noise::{Noise, noise};
 use trackdyn_estimate::observations::{Observation, Observations, Piece};
 use trackdyn_estimate::regular::with_regular_poses;
@@ -20,6 +20,9 @@ use trackdyn_estimate::thinned::{with_poses_every, with_readings_every};
 use trackdyn_estimate::weighting::{MIN_POSE_NOISE, SegmentNoise};
 use trackdyn_estimate::{Clock, SegmentOptions};
 use trackdyn_recording::{Recording, Run, TrackSample};
+
+/// Difference of times that is rounding, s.
+const ROUNDING: f64 = 1e-6;
 
 /// What is said where each run has a frame of its own.
 const NO_WORLD: &str = "; each run has a frame of its own, so nothing is looked for that needs a \
@@ -62,16 +65,26 @@ impl Evidence {
         let recording = with_poses_every(&recording, by.min_pose_interval);
         let clock = Clock::of(&recording, tau).map_err(Error::Clock)?;
         let tau = clock.tau();
-        let Poses { recording, noise: measured, has_place, gyroscope } =
-            Poses::quieter(&recording, tau).by(by_gyroscope, tau, by);
-        let observations = segments(&recording, tau, by)?;
-        let gap =
-            spin_test(&observations, gauge).map_or(by.gap_without_spins * gauge, |spin| spin.gap);
-        let noise = noise_of_segments(&recording, &measured, &observations, gap, gauge)?;
-        let blocks = observations.blocks();
-        let has_world = share_a_frame(&recording);
-        let begin = recording.begin();
-        let samples = samples(&recording, &has_place, &observations, &blocks, begin);
+        let poses = Poses::quieter(&recording, tau);
+        let poses = if by_gyroscope { poses.with_gyroscope(tau) } else { poses };
+        let seen = segments(&poses.recording, tau, None, by);
+        let gap = spin_test(&seen, gauge).map_or(by.gap_without_spins * gauge, |spin| spin.gap);
+        let noise = noise_of_segments(&poses, &seen, gap, gauge)?;
+        let blocks = seen.blocks();
+        let has_world = share_a_frame(&poses.recording);
+        let begin = poses.recording.begin();
+        let samples = if let Some(Filled { recording, has_place }) = poses.filled(by) {
+            // Poses that the gyroscope does not join are as far apart as they were.
+            let longest = longest_pose_interval(&seen);
+            let observations = segments(&recording, tau, Some(longest), by);
+            samples(&recording, &has_place, &observations, &blocks, begin)
+        } else {
+            let has_place = all_seen(&poses.recording);
+            samples(&poses.recording, &has_place, &seen, &blocks, begin)
+        };
+        check_number(&samples, by.min_segments)?;
+        let Poses { recording, corrected, .. } = poses;
+        let gyroscope = corrected.map(|found| found.map(|corrected| corrected.gyroscope));
         Ok(Self {
             tracks: tracks(&recording, &samples, begin).into(),
             samples: samples.into(),
@@ -106,42 +119,41 @@ fn check_places(recording: &Recording, largest: f64) -> Result<(), Error> {
 }
 
 /// Segments between neighbouring poses, each with a reading at least, at a clock offset of `tau`
-/// (s); cut such that readings cover every offset from zero to beyond `tau`.
+/// (s); cut such that readings cover every offset from zero to beyond `tau`. A longer interval of
+/// poses than this, s, is a gap.
 fn segments(
     recording: &Recording,
     tau: f64,
+    longest_pose_interval: Option<f64>,
     settings: &settings::Evidence,
-) -> Result<Observations, Error> {
+) -> Observations {
     let options = SegmentOptions {
         minimum_duration: 0.0,
         minimum_readings: 1,
+        longest_pose_interval,
         tau: tau / 2.0,
         tau_margin: tau.abs() / 2.0 + settings.clock_margin,
         ..SegmentOptions::default()
     };
-    let observations = Observations::new(recording, &options).at(tau);
-    if observations.len() < settings.min_segments {
-        let durations = observations.segments().iter().map(|segment| segment.duration);
-        return Err(Error::too_few_segments(durations, settings.min_segments));
-    }
-    Ok(observations)
+    Observations::new(recording, &options).at(tau)
 }
 
 /// Noise of the segments: measured, or else as stated in the recording, or else what constant ICRs
 /// leave. `gap` is the distance of the ICRs, m.
 fn noise_of_segments(
-    recording: &Recording,
-    measured: &Noise,
+    poses: &Poses,
     observations: &Observations,
     gap: f64,
     gauge: f64,
 ) -> Result<SegmentNoise, Error> {
-    let stated = || recording.stated_noise().map(SegmentNoise::stated);
+    let stated = || poses.recording.stated_noise().map(SegmentNoise::stated);
     let remaining = || residual_noise(observations, gauge);
-    SegmentNoise::measured(measured, gap).or_else(stated).or_else(remaining).ok_or(Error::NoNoise)
+    let measured = SegmentNoise::measured(&poses.noise, gap);
+    measured.or_else(stated).or_else(remaining).ok_or(Error::NoNoise)
 }
 
-/// One sample for each segment, with times since `begin`.
+/// One sample for each segment, with times since `begin`, from the first place that was seen to the
+/// last in each row.
 fn samples(
     recording: &Recording,
     has_place: &[Vec<bool>],
@@ -171,7 +183,18 @@ fn samples(
             has_place: segment.poses.map(|pose| has_place[segment.run][pose]),
         }
     };
-    observations.segments().iter().map(sample).collect()
+    let all: Vec<Sample> = observations.segments().iter().map(sample).collect();
+    let mut kept: Vec<Sample> = Vec::new();
+    for row in between_places(&all).map(|range| &all[range]) {
+        let [Some(first), Some(last)] = [row.first(), row.last()] else { continue };
+        if first.has_place[0] && last.has_place[1] {
+            let is_next = |before: &Sample| before.run == first.run && ends_at(before, first.start);
+            let follows = first.follows && kept.last().is_some_and(is_next);
+            kept.push(Sample { follows, ..*first });
+            kept.extend(&row[1..]);
+        }
+    }
+    kept
 }
 
 /// Track readings of each run that has samples, with times since `begin`.
@@ -190,10 +213,8 @@ struct Poses<'a> {
     recording: Cow<'a, Recording>,
     /// Their noise, measured without a model.
     noise: Noise,
-    /// Of each pose of each run, whether its place was measured.
-    has_place: Vec<Vec<bool>>,
-    /// What a gyroscope tells of their yaw; none where it was not asked.
-    gyroscope: Option<Result<Gyroscope, Unfit>>,
+    /// The recording as a gyroscope corrects it, or why not; none where it was not asked.
+    corrected: Option<Result<Corrected, Unfit>>,
 }
 
 impl<'a> Poses<'a> {
@@ -211,36 +232,45 @@ impl<'a> Poses<'a> {
             (Some(stamped), Some(level)) if level < stamped => (Cow::Owned(due), as_due),
             _ => (Cow::Borrowed(recording), as_stamped),
         };
-        let has_place = recording.runs().iter().map(|run| vec![true; run.poses().len()]).collect();
-        Self { recording, noise, has_place, gyroscope: None }
+        Self { recording, noise, corrected: None }
     }
 
-    /// These with their yaw corrected by a gyroscope, and with its yaw between them; as they are
-    /// where it is not wanted or does not serve. They stand at their times, so it tells where they
-    /// look.
-    fn by(self, by_gyroscope: bool, tau: f64, settings: &settings::Evidence) -> Self {
-        if !by_gyroscope {
-            return self;
+    /// The poses with their yaw corrected by a gyroscope; as they are where it does not serve. They
+    /// stand at their times, so it tells where they look.
+    fn with_gyroscope(self, tau: f64) -> Self {
+        match with_gyroscope(&self.recording, tau) {
+            Ok(corrected) => Self {
+                recording: Cow::Owned(corrected.recording.clone()),
+                noise: noise(&corrected.recording, tau),
+                corrected: Some(Ok(corrected)),
+            },
+            Err(unfit) => Self { corrected: Some(Err(unfit)), ..self },
         }
-        let corrected = match with_gyroscope(&self.recording, tau) {
-            Ok(corrected) => corrected,
-            Err(unfit) => return Self { gyroscope: Some(Err(unfit)), ..self },
+    }
+
+    /// The recording with the yaw between its poses, where a gyroscope tells it.
+    fn filled(&self, settings: &settings::Evidence) -> Option<Filled> {
+        // Two readings of the tracks, so that no pose lacks one.
+        let interval = |run: &Run| {
+            let readings = usual_interval(run.tracks().iter().map(|reading| reading.t));
+            settings.min_pose_interval.max(2.0 * readings)
         };
-        let Filled { recording, has_place } =
-            corrected.filled(shortest_interval(&self.recording, settings));
-        Self {
-            recording: Cow::Owned(recording),
-            noise: noise(&corrected.recording, tau),
-            has_place,
-            gyroscope: Some(Ok(corrected.gyroscope)),
-        }
+        let corrected = self.corrected.as_ref()?.as_ref().ok()?;
+        Some(corrected.filled(interval))
     }
 }
 
-/// Shortest interval of poses that tells of motion, s: two readings of the tracks, so that none
-/// lacks one.
-fn shortest_interval(recording: &Recording, settings: &settings::Evidence) -> f64 {
-    let of_run = |run: &Run| usual_interval(run.tracks().iter().map(|reading| reading.t));
-    let longest = recording.runs().iter().map(of_run).fold(0.0, f64::max);
-    settings.min_pose_interval.max(2.0 * longest)
+/// Of each pose of each run, that its place was measured.
+fn all_seen(recording: &Recording) -> Vec<Vec<bool>> {
+    recording.runs().iter().map(|run| vec![true; run.poses().len()]).collect()
+}
+
+/// Longest duration of a segment, s.
+fn longest_pose_interval(observations: &Observations) -> f64 {
+    observations.segments().iter().map(|segment| segment.duration).fold(0.0, f64::max)
+}
+
+/// Whether a sample ends at a time, s.
+fn ends_at(sample: &Sample, time: f64) -> bool {
+    (sample.start + sample.duration - time).abs() < ROUNDING
 }

@@ -112,7 +112,7 @@ impl Flexible {
             self.columns.iter().map(|column| white(evidence, column)).collect();
         let normal = evidence.normal(&residual, &columns);
         let mut fitted = normal.independent();
-        let most = evidence.settings().noise.max_fitted_share * real(3 * residual.len());
+        let most = evidence.settings().noise.max_fitted_share * real(evidence.measured());
         if real(fitted.len()) > most {
             fitted.retain(|&column| column < self.own);
         }

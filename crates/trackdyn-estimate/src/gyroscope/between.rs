@@ -26,11 +26,12 @@ pub struct Filled {
 }
 
 impl Corrected {
-    /// The recording with poses between its own, as many as lie at least `interval` (s) apart.
-    pub fn filled(&self, interval: f64) -> Filled {
+    /// The recording with poses between its own, as many as lie at least so far apart as `interval`
+    /// says of their run, s.
+    pub fn filled(&self, interval: impl Fn(&Run) -> f64) -> Filled {
         let runs = self.recording.runs().iter().enumerate();
         let (runs, has_place) =
-            runs.map(|(index, run)| self.filled_run(index, run, interval)).unzip();
+            runs.map(|(index, run)| self.filled_run(index, run, interval(run))).unzip();
         Filled { recording: self.recording.with_runs(runs), has_place }
     }
 

@@ -27,8 +27,9 @@ const LAG_PRIOR: f64 = 0.2;
 /// steady.
 const SCALE_INTERVAL: f64 = 2.0;
 
-/// Longest time between two runs that share a bias, s: a gyroscope keeps it for minutes.
-const MAX_PAUSE: f64 = 600.0;
+/// Longest time that runs which share a bias begin after the first of them, s: a gyroscope keeps it
+/// for minutes.
+const MAX_SESSION: f64 = 600.0;
 
 /// Steps of the fit; it has settled before.
 const ITERATIONS: usize = 20;
@@ -45,7 +46,7 @@ pub(super) struct Drive<'a> {
 pub(super) struct Row<'a> {
     /// Index of the run.
     pub(super) run: usize,
-    /// The bias it has: runs of one session share one.
+    /// Index of its session: runs of a session share one bias.
     session: usize,
     /// Indices of the poses.
     pub(super) poses: Range<usize>,
@@ -56,15 +57,17 @@ pub(super) struct Row<'a> {
 }
 
 impl Row<'_> {
-    /// Its poses in groups that last so long, s; two at least.
+    /// Its poses in groups of one length, at least so long, s; two groups at least.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small, positive")]
     fn groups(&self, duration: f64) -> Vec<Range<usize>> {
         let [Some(first), Some(last)] = [self.times.first(), self.times.last()] else {
             return Vec::new();
         };
-        let longest = duration.min((last - first) / 2.0);
-        let group = |t: &f64| ((t - first) / longest).floor();
+        let span = last - first;
+        let count = (span / duration).floor().max(2.0);
+        let group = |t: &f64| ((t - first) / span * count).min(count - 1.0) as usize;
         let mut end = 0;
-        let of_times = self.times.chunk_by(|a, b| group(a).total_cmp(&group(b)).is_eq());
+        let of_times = self.times.chunk_by(|a, b| group(a) == group(b));
         let ranges = of_times.map(|times| {
             end += times.len();
             end - times.len()..end
@@ -83,12 +86,13 @@ impl Drive<'_> {
     /// The rows of poses that the gyroscope covers at a lag, s.
     pub(super) fn rows(&self, lag: f64) -> Vec<Row<'_>> {
         let mut rows = Vec::new();
-        let (mut session, mut until) = (0, f64::INFINITY);
+        let (mut session, mut begin) = (0, f64::INFINITY);
         for (run, (of, turned)) in self.recording.runs().iter().zip(self.turned).enumerate() {
-            if let [first, .., last] = of.imu() {
-                let is_next = (0.0..MAX_PAUSE).contains(&(first.t - until));
-                session += usize::from(!is_next);
-                until = last.t;
+            if let Some(first) = of.imu().first()
+                && !(0.0..MAX_SESSION).contains(&(first.t - begin))
+            {
+                session += 1;
+                begin = first.t;
             }
             for turned in turned {
                 let [start, end] = turned.span();
@@ -154,20 +158,16 @@ impl Fit {
     /// The best fit near a lag, s: quick changes tell the lag, turns over longer times the scale.
     pub(super) fn near(drive: &Drive, lag: f64) -> Result<Self, Unfit> {
         let quick = Self::start(lag).settled(drive, lag, None)?;
-        let slow = quick.settled(drive, quick.lag, Some(SCALE_INTERVAL))?;
-        Ok(Self { lag: quick.lag, ..slow })
+        quick.settled(drive, quick.lag, Some(SCALE_INTERVAL))
     }
 
     /// The fit after steps until it settles, of which the lag starts at `lag`, s: by differences of
-    /// poses, or of means over a time, s, which leave the lag.
+    /// poses; or by those of means over a time, s, with the lag it has.
     fn settled(self, drive: &Drive, lag: f64, over: Option<f64>) -> Result<Self, Unfit> {
         let mut fit = self;
         for _ in 0..ITERATIONS {
             let rows = drive.rows(fit.lag);
-            let (mut step, variance) = fit.step(&fit.whitened(&rows, over), lag);
-            if over.is_some() {
-                step.y = 0.0;
-            }
+            let (step, variance) = fit.step(&fit.whitened(&rows, over), lag);
             fit.scale_deviation = variance.sqrt();
             fit.scale += step.x;
             fit.lag += step.y.clamp(-LAG_STEP, LAG_STEP);
@@ -248,7 +248,8 @@ impl Fit {
         ]
     }
 
-    /// Residual and derivatives of some rows, or of their means over a time, s.
+    /// Residual and derivatives of some rows; or of their means over a time, s, which say nothing
+    /// of the lag.
     fn whitened(&self, rows: &[Row], over: Option<f64>) -> Whitened {
         let mut all = Whitened::default();
         for rows in rows.chunk_by(|a, b| a.session == b.session) {
@@ -266,11 +267,13 @@ impl Fit {
                     Some(duration) => {
                         let groups = row.groups(duration);
                         let at = means(&row.times, &groups);
-                        let poses = real(row.times.len()) / real(groups.len().max(1));
-                        let level = Level { white: self.level.white / poses, ..self.level };
+                        let fewest = groups.iter().map(Range::len).min().unwrap_or(1);
+                        let white = self.level.white / real(fewest);
+                        let level = Level { white, ..self.level };
                         let white = |column: &[f64]| level.whitened(&at, &means(column, &groups));
-                        let [r, scale, lag] = columns.map(white);
-                        [r, scale, lag, white(&row.times)]
+                        let [r, scale, _] = columns.map(white);
+                        let no_lag = vec![0.0; r.len()];
+                        [r, scale, no_lag, white(&row.times)]
                     }
                 };
                 residual.extend(r);

@@ -87,6 +87,35 @@ fn yaw_is_better_with_a_gyroscope_whose_errors_are_found() {
     assert!(found.poses > 1100, "{found:?}");
 }
 
+/// A robot with fixes alone takes the yaw of its poses from its gyroscope.
+#[test]
+fn a_gyroscope_that_made_the_yaw_of_the_poses_tells_what_lies_between() {
+    let rare = Synthetic { pose_interval: 1.0, ..synthetic(0.0, 12) };
+    let raw = with_readings(&rare, 0.002, 1.0);
+    let runs = raw.runs().iter().map(|run| {
+        let turned = Turned::of_run(run);
+        let mut rows = run.clone().into_rows();
+        rows.poses.samples.retain(|pose| {
+            let [start, end] = turned[0].span();
+            (start..end).contains(&(pose.t - LATE))
+        });
+        for pose in &mut rows.poses.samples {
+            pose.pose.yaw = turned[0].at(pose.t - LATE).0;
+        }
+        Run::new(rows, &mut Vec::new())
+    });
+    let own = raw.with_runs(runs.collect());
+    let corrected = with_gyroscope(&own, 0.0).expect("it serves");
+    let filled = corrected.filled(|_| 0.1).recording;
+    let count = |of: &Recording| of.runs().iter().map(|run| run.poses().len()).sum::<usize>();
+    assert!(count(&filled) > 9 * count(&own), "{} {}", count(&filled), count(&own));
+    for (own, run) in own.runs().iter().zip(corrected.recording.runs()) {
+        for (before, after) in own.poses().iter().zip(run.poses()) {
+            assert!((before.pose.yaw - after.pose.yaw).abs() < 1e-3, "{before:?} {after:?}");
+        }
+    }
+}
+
 /// Noise of 1 rad/s: a second of it is off by 0.1 rad.
 #[test]
 fn a_gyroscope_that_is_worse_than_the_poses_is_left_out() {
@@ -198,7 +227,7 @@ fn the_interval_of_the_distance_holds_the_error_of_the_scale() {
 fn yaw_between_rare_poses_is_that_of_the_gyroscope() {
     let rare = Synthetic { pose_interval: 1.0, ..synthetic(0.002, 6) };
     let corrected = with_gyroscope(&with_readings(&rare, 0.002, 1.0), 0.0).expect("it serves");
-    let Filled { recording, has_place } = corrected.filled(0.1);
+    let Filled { recording, has_place } = corrected.filled(|_| 0.1);
     let often = Synthetic { pose_interval: 0.1, position_noise: 0.0, yaw_noise: 0.0, ..rare };
     let exact = often.recording().expect("long enough");
     let mut seen = 0;

@@ -11,6 +11,17 @@ use std::path::PathBuf;
 use trackdyn_core::lines::counted;
 use trackdyn_core::robust::usual_interval;
 
+/// How the yaw of a gyroscope agrees with the course of fixes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Course {
+    /// Straight pieces of the way that tell the course.
+    pub pieces: usize,
+    /// Bias that was taken off the yaw rates, rad/s.
+    pub bias: f64,
+    /// Scatter of the courses about the yaw, rad.
+    pub scatter: f64,
+}
+
 /// Something the user should know about a recording that can be used all the same.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -163,6 +174,16 @@ pub enum Warning {
         /// The topic of the IMU.
         imu: String,
     },
+    /// Poses that are made of fixes of satellite navigation and a gyroscope, whose yaw is turned to
+    /// the course of the fixes.
+    FromCourse {
+        /// The topic of the fixes.
+        topic: String,
+        /// The topic of the IMU.
+        imu: String,
+        /// How they agree.
+        course: Course,
+    },
     /// An IMU that is not mounted upright, whose yaw rates are those about the vertical.
     TurnedUpright {
         /// Its topic.
@@ -296,6 +317,7 @@ impl fmt::Display for Warning {
                 "{topic}: positions of its antenna in metres east and north of the first fix, \
                  with the yaw of {imu}, which has to count from east (REP-103)"
             ),
+            Self::FromCourse { topic, imu, course } => from_course(f, topic, imu, course),
             Self::TurnedUpright { topic, up: [x, y, z] } => write!(
                 f,
                 "{topic}: gravity points up along ({x:.2}, {y:.2}, {z:.2}) of its axes: yaw rates \
@@ -317,6 +339,19 @@ impl fmt::Display for Warning {
             Self::Chosen { what, taken } => write!(f, "{what}: took {taken}"),
         }
     }
+}
+
+/// Says that the yaw of a gyroscope is turned to the course of fixes.
+fn from_course(f: &mut fmt::Formatter, topic: &str, imu: &str, of: &Course) -> fmt::Result {
+    write!(
+        f,
+        "{topic}: positions of its antenna in metres east and north of the first fix, with the \
+         yaw that {imu} turns, from where the course of {} straight pieces says that the robot \
+         looks: they scatter by {:.1} degrees, at a bias of {:.3} degrees per second",
+        of.pieces,
+        of.scatter.to_degrees(),
+        of.bias.to_degrees()
+    )
 }
 
 fn from_twist(f: &mut fmt::Formatter<'_>, topic: &str, separation: f64) -> fmt::Result {

@@ -7,8 +7,10 @@
 //! # Sources
 //! NIMA TR8350.2, WGS84 (ellipsoid).
 
+use super::course::{COURSE_LENGTH, MIN_STRAIGHT_PIECES, aligned, straight, wrapped};
 use super::date::Received;
-use std::f64::consts::{PI, TAU};
+use crate::recording::Course;
+use std::f64::consts::PI;
 use trackdyn_core::robust::deviation_about_zero;
 
 /// Semi-major axis of the ellipsoid, m.
@@ -24,16 +26,6 @@ const MIN_YAW_CHANGE: f64 = 0.2;
 /// Longest time between two yaws that are interpolated, ns: a robot that turns by 3 rad/s makes
 /// less than half a turn.
 const MAX_YAW_INTERVAL: i64 = 1_000_000_000;
-
-/// Length of the pieces whose course is compared with the yaw, m: above the noise of a receiver
-/// within some seconds.
-const COURSE_LENGTH: f64 = 3.0;
-
-/// Largest change of yaw in a straight piece, rad.
-const MAX_STRAIGHT_TURN: f64 = 0.2;
-
-/// Fewest straight pieces for a comparison.
-const MIN_STRAIGHT_PIECES: u32 = 5;
 
 /// Largest mean angle between yaw and course, rad: 20 degrees, above that of sensors mounted by eye
 /// and of robots that slide on a slope.
@@ -78,15 +70,22 @@ fn east_north(origin: [f64; 3], fix: [f64; 3]) -> [f64; 2] {
     [east, north]
 }
 
-/// An angle in [-π, π).
-fn wrapped(angle: f64) -> f64 {
-    (angle + PI).rem_euclid(TAU) - PI
-}
-
 /// Whether the yaw of an IMU changes.
 pub(super) fn changes(yaws: &[Yaw]) -> bool {
     let first = yaws.first().map_or(0.0, |yaw| yaw.value);
     yaws.iter().any(|yaw| wrapped(yaw.value - first).abs() > MIN_YAW_CHANGE)
+}
+
+/// Places (east, north) of fixes, m, with their times, ns.
+fn places(fixes: &[(i64, Fix)]) -> Vec<[f64; 2]> {
+    let Some(origin) = fixes.first().map(|(_, fix)| fix.value) else { return Vec::new() };
+    let level = |altitude: f64| if altitude.is_finite() { altitude } else { 0.0 };
+    let place = |(_, fix): &(i64, Fix)| {
+        let [latitude, longitude, altitude] = fix.value;
+        let origin = [origin[0], origin[1], level(origin[2])];
+        east_north(origin, [latitude, longitude, level(altitude)])
+    };
+    fixes.iter().map(place).collect()
 }
 
 /// Poses (east, north, yaw) at the fixes that a yaw is known at, and the number of others. Fixes
@@ -100,22 +99,48 @@ pub(super) fn poses(
     yaws: &[(i64, f64)],
     mount: f64,
 ) -> Result<(Poses, u64), String> {
-    let Some(origin) = fixes.first().map(|(_, fix)| fix.value) else { return Ok((Vec::new(), 0)) };
+    let (found, left_out) = with_yaws(fixes, yaws);
+    check_course(&found, mount)?;
+    Ok((undated(found), left_out))
+}
+
+/// As [`poses`], with a gyroscope that has turned by these angles, with their times, ns, in place
+/// of yaws: turned to the course.
+///
+/// # Errors
+/// Fixes that tell no course, or one that the gyroscope does not follow.
+pub(super) fn poses_by_gyroscope(
+    fixes: &[(i64, Fix)],
+    turned: &[(i64, f64)],
+) -> Result<(Poses, u64, Course), String> {
+    let (found, _) = with_yaws(fixes, turned);
+    if let Some(scatter) = scatter(&found).filter(|scatter| *scatter > MAX_SCATTER) {
+        return Err(coarse(scatter, "its yaw rates, added up,"));
+    }
+    let (yaws, course) = aligned(turned, &straight(&found))?;
+    let (found, left_out) = with_yaws(fixes, &yaws);
+    Ok((undated(found), left_out, course))
+}
+
+/// Poses with their times, ns.
+type Dated = Vec<(i64, Received<[f64; 3]>)>;
+
+/// Poses without their times.
+fn undated(poses: Dated) -> Poses {
+    poses.into_iter().map(|(_, pose)| pose).collect()
+}
+
+/// Poses at the fixes that a yaw is known at, and the number of others.
+fn with_yaws(fixes: &[(i64, Fix)], yaws: &[(i64, f64)]) -> (Dated, u64) {
     let mut left_out = 0;
     let mut found = Vec::new();
-    for (time, fix) in fixes {
-        let Some(yaw) = yaw_at(yaws, *time) else {
-            left_out += 1;
-            continue;
-        };
-        let [latitude, longitude, altitude] = fix.value;
-        let altitude = if altitude.is_finite() { altitude } else { 0.0 };
-        let origin = [origin[0], origin[1], if origin[2].is_finite() { origin[2] } else { 0.0 }];
-        let [x, y] = east_north(origin, [latitude, longitude, altitude]);
-        found.push(Received { stamp_ns: fix.stamp_ns, log_ns: fix.log_ns, value: [x, y, yaw] });
+    for ((time, fix), [x, y]) in fixes.iter().zip(places(fixes)) {
+        match yaw_at(yaws, *time) {
+            Some(yaw) => found.push((*time, fix.with([x, y, yaw]))),
+            None => left_out += 1,
+        }
     }
-    check_course(&found, mount)?;
-    Ok((found, left_out))
+    (found, left_out)
 }
 
 /// The yaw between the two nearest ones, along the shorter way.
@@ -134,10 +159,10 @@ fn yaw_at(yaws: &[(i64, f64)], time: i64) -> Option<f64> {
 }
 
 /// By how much fixes miss a smooth way, m, each by itself; none of fewer than three.
-fn scatter(poses: &[Received<[f64; 3]>]) -> Option<f64> {
+fn scatter(poses: &[(i64, Received<[f64; 3]>)]) -> Option<f64> {
     let bends = poses.windows(3).flat_map(|three| {
         [0, 1].map(|axis| {
-            let [before, at, after] = [0, 1, 2].map(|k| three[k].value[axis]);
+            let [before, at, after] = [0, 1, 2].map(|k| three[k].1.value[axis]);
             before - 2.0 * at + after
         })
     });
@@ -145,26 +170,25 @@ fn scatter(poses: &[Received<[f64; 3]>]) -> Option<f64> {
     Some(deviation_about_zero(&mut bends.collect::<Vec<_>>())? / 6.0_f64.sqrt())
 }
 
+/// What is said of fixes that tell no course; `what` is compared with it.
+fn coarse(scatter: f64, what: &str) -> String {
+    format!(
+        "{what} cannot be compared with the course of the fixes, which scatter by some \
+         {scatter:.1} m from one to the next: expected fixes that are known to some \
+         centimetres, as a receiver with corrections (RTK) gives them; the gyroscope of an \
+         IMU alone, by --pose-topic of its topic, tells x_r - x_l"
+    )
+}
+
 /// Compares yaw and course where the robot drives straight, forward or backward.
-fn check_course(poses: &[Received<[f64; 3]>], mount: f64) -> Result<(), String> {
+fn check_course(poses: &[(i64, Received<[f64; 3]>)], mount: f64) -> Result<(), String> {
     let (mut cos, mut sin, mut count) = (0.0, 0.0, 0_u32);
-    let mut start: Option<[f64; 3]> = None;
-    for pose in poses {
-        let [x, y, yaw] = pose.value;
-        let Some([x0, y0, yaw0]) = start else {
-            start = Some(pose.value);
-            continue;
-        };
-        if wrapped(yaw - yaw0).abs() > MAX_STRAIGHT_TURN {
-            start = Some(pose.value);
-        } else if (x - x0).hypot(y - y0) >= COURSE_LENGTH {
-            // The doubled angle is that of driving forward and of driving backward.
-            let offset = (y - y0).atan2(x - x0) - (yaw0 - mount + wrapped(yaw - yaw0) / 2.0);
-            cos += (2.0 * offset).cos();
-            sin += (2.0 * offset).sin();
-            count += 1;
-            start = Some(pose.value);
-        }
+    for piece in straight(poses) {
+        // The doubled angle is that of driving forward and of driving backward.
+        let doubled = 2.0 * (piece.off + mount);
+        cos += doubled.cos();
+        sin += doubled.sin();
+        count += 1;
     }
     if count < MIN_STRAIGHT_PIECES {
         return Ok(());
@@ -174,12 +198,7 @@ fn check_course(poses: &[Received<[f64; 3]>], mount: f64) -> Result<(), String> 
     if agreement < MIN_COURSE_AGREEMENT
         && let Some(scatter) = scatter(poses).filter(|scatter| *scatter > MAX_SCATTER)
     {
-        return Err(format!(
-            "its yaw cannot be compared with the course of the fixes, which scatter by some \
-             {scatter:.1} m from one to the next: expected fixes that are known to some \
-             centimetres, as a receiver with corrections (RTK) gives them; the gyroscope of an \
-             IMU alone, by --pose-topic of its topic, tells x_r - x_l"
-        ));
+        return Err(coarse(scatter, "its yaw"));
     }
     if agreement < MIN_COURSE_AGREEMENT {
         return Err(format!("its yaw does not follow the course of the fixes: {expected}"));
@@ -268,6 +287,43 @@ mod tests {
         // backward all the time
         let (fixes, yaws, _) = drive(|yaw| yaw + PI);
         assert!(poses(&fixes, &yaws, 0.0).is_ok());
+    }
+
+    /// A gyroscope counts from where it was switched on, and its bias adds up: 34 degrees here.
+    #[test]
+    fn a_gyroscope_is_turned_to_the_course() {
+        const BIAS: f64 = 0.003;
+        let (fixes, mut turned, truth) = drive(|yaw| yaw - 1.7);
+        for (time, angle) in &mut turned {
+            *angle += BIAS * crate::rosbag::date::seconds(0, *time);
+        }
+        let (poses, left_out, course) = poses_by_gyroscope(&fixes, &turned).expect("poses");
+        assert_eq!((poses.len(), left_out), (truth.len(), 0));
+        assert!((course.bias - BIAS).abs() < 1e-5, "{course:?}");
+        assert!(course.scatter < 1e-3 && course.pieces >= 40, "{course:?}");
+        for (pose, [.., yaw]) in poses.iter().zip(truth) {
+            assert!(wrapped(pose.value[2] - yaw).abs() < 1e-3, "{} {yaw}", pose.value[2]);
+        }
+    }
+
+    #[test]
+    fn a_gyroscope_upside_down_and_coarse_fixes_are_refused() {
+        let (fixes, turned, _) = drive(|yaw| -yaw);
+        let text = poses_by_gyroscope(&fixes, &turned).expect_err("refused");
+        assert!(text.contains("at any bias") && text.contains("counter-clockwise"), "{text}");
+        let (mut fixes, turned, _) = drive(|yaw| yaw);
+        for (k, (_, fix)) in fixes.iter_mut().enumerate() {
+            fix.value[0] += if k % 3 == 0 { 3e-5 } else { 0.0 };
+        }
+        let text = poses_by_gyroscope(&fixes, &turned).expect_err("refused");
+        assert!(text.contains("scatter by some") && text.contains("--pose-topic"), "{text}");
+    }
+
+    #[test]
+    fn a_way_without_straight_pieces_tells_no_yaw() {
+        let (fixes, turned, _) = drive(|yaw| yaw);
+        let text = poses_by_gyroscope(&fixes[..60], &turned).expect_err("refused");
+        assert!(text.contains("straight pieces of 3 m"), "{text}");
     }
 
     /// Where it is the fixes that are coarse, the yaw is not blamed.

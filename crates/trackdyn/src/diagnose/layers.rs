@@ -135,7 +135,8 @@ impl Drive<'_> {
         runs
     }
 
-    /// Samples in a row, without gaps, of about a second; what is left is too short and dropped.
+    /// Samples in a row, without gaps, of about a second, from one place that was seen to another;
+    /// what is left is too short and dropped.
     fn pieces(&self) -> Vec<Piece> {
         const ROUNDING: f64 = 1e-6;
         let samples = self.evidence.samples();
@@ -150,7 +151,7 @@ impl Drive<'_> {
                 samples: start.samples.start..index + 1,
                 duration: start.duration + sample.duration,
             };
-            if piece.duration >= viewer::PIECE - ROUNDING {
+            if piece.duration >= viewer::PIECE - ROUNDING && sample.has_place[1] {
                 pieces.push(piece);
             } else {
                 open = Some(piece);

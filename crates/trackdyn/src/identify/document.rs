@@ -147,7 +147,7 @@ fn of_noise(found: &Identification) -> NoiseTable {
     let encoders = found.noise.encoders.map(|noise| noise.map(|noise| Rounded(noise.deviation)));
     NoiseTable {
         weights: match found.weights {
-            Weights::Noise => "noise",
+            Weights::Noise(_) => "noise",
             Weights::Residuals(_) => "residuals",
             Weights::Equal => "equal",
         },
@@ -249,7 +249,8 @@ fn of_least_squares(
             contradictions: fit.contradictions.iter().map(Contradiction::to_string).collect(),
             cost: Some(estimate.cost),
             cost_unit: Some(if weights == Weights::Equal { "m^2" } else { "1" }),
-            whitened_rms: (weights == Weights::Noise).then_some(Rounded(estimate.whitened_rms)),
+            whitened_rms: matches!(weights, Weights::Noise(_))
+                .then_some(Rounded(estimate.whitened_rms)),
             blocks: Some(estimate.filled_blocks),
             estimate: of_estimate(estimate, gauge),
             ..table.refused(fit.doubts.iter().map(Doubt::to_string).collect())

@@ -93,14 +93,17 @@ pub struct Driving {
     pub(super) observations: Observations,
 }
 
-/// What the gyroscope of a recording tells of its poses, at a clock offset, s.
-fn gyroscope(motion: &Motion, tau: f64) -> Option<Result<Gyroscope, Unfit>> {
-    let found = with_gyroscope(motion, tau).map(|corrected| corrected.gyroscope);
-    let is_there = motion.has_positions() && !matches!(found, Err(Unfit::NoReadings));
-    is_there.then_some(found)
-}
-
 impl Driving {
+    /// What a recording says of its gyroscope beside this.
+    pub(super) fn with_gyroscope(self, motion: &Motion) -> Self {
+        let has_both = self.has_positions && self.imu.count > 0;
+        let tau = self.clock.as_ref().map_or(0.0, Clock::tau);
+        let found = has_both.then(|| with_gyroscope(motion, tau));
+        let gyroscope = found.map(|found| found.map(|corrected| corrected.gyroscope));
+        Self { gyroscope, ..self }
+    }
+
+    /// What was driven, without the gyroscope.
     pub(super) fn of(motion: &Motion, tau: Option<f64>) -> Self {
         let runs = motion.runs();
         let clock = Clock::of(motion, tau);
@@ -119,7 +122,7 @@ impl Driving {
             tracks: rows(|run| run.tracks().iter().map(|row| row.t).collect()),
             poses: rows(|run| run.poses().iter().map(|row| row.t).collect()),
             imu: rows(|run| run.imu().iter().map(|row| row.t).collect()),
-            gyroscope: gyroscope(motion, tau),
+            gyroscope: None,
             has_positions: motion.has_positions(),
             fastest,
             clock,

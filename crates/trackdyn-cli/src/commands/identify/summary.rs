@@ -54,7 +54,7 @@ pub fn text(recording: &Recording, gauge: &Gauge, fit: &MotionFit) -> String {
         }
     }
     for fit in &found.fits {
-        self::fit(&mut text, fit, gauge.metres(), found.weights == Weights::Noise);
+        self::fit(&mut text, fit, gauge.metres(), matches!(found.weights, Weights::Noise(_)));
     }
     text
 }
@@ -174,7 +174,7 @@ fn noise(text: &mut String, found: &Identification) {
             poses.method
         ),
         None => match found.weights {
-            Weights::Noise => "as the recording states it".to_owned(),
+            Weights::Noise(_) => "as the recording states it".to_owned(),
             Weights::Residuals(SegmentNoise { pose, .. }) => {
                 let [forward, lateral, yaw] = pose.map(|variance| 1e3 * variance.sqrt());
                 format!(

@@ -148,6 +148,13 @@ impl Sources<'_> {
         if let Some(found) = of_poses.and_then(|topic| imu.remove_entry(topic)) {
             return Ok(found);
         }
+        // A receiver with two antennas reports its heading as an Imu that never turns.
+        let turns = |readings: &[Received<Inertial>]| {
+            readings.iter().any(|reading| reading.value.rate != [0.0; 3])
+        };
+        if self.options.imu_topic.is_none() && imu.values().any(|readings| turns(readings)) {
+            imu.retain(|_, readings| turns(readings));
+        }
         match (&self.options.imu_topic, imu.len()) {
             (None, 0) => Ok((String::new(), Vec::new())),
             (None, 2..) => {

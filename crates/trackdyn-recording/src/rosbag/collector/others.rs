@@ -1,6 +1,7 @@
 //! Poses of second choice, and track speeds from those of the body.
 
-use super::{Collector, PoseKey, push};
+use super::upright::{Inertial, upright};
+use super::{Collector, PoseKey, gyro, push};
 use crate::Error;
 use crate::attitude::Attitude;
 use crate::recording::{PoseAxes, Warning};
@@ -149,7 +150,12 @@ impl Collector<'_> {
                 continue;
             }
             let beside = Beside { receivers: &receivers, gyroscopes: &gyroscopes };
-            match located(&name, &fixes, &self.yaws, &beside, self.options, warnings) {
+            let changes = self.yaws.values().any(|yaws| fixes::changes(yaws));
+            let located = match self.gyroscope().filter(|_| !changes) {
+                Some(gyroscope) => by_gyroscope(&name, &fixes, gyroscope, self.options, warnings),
+                None => located(&name, &fixes, &self.yaws, &beside, self.options, warnings),
+            };
+            match located {
                 Ok(poses) => {
                     let (parent, child) = (TANGENT_PLANE.to_owned(), String::new());
                     self.poses.insert(PoseKey { topic: name, parent, child }, poses);
@@ -169,6 +175,17 @@ impl Collector<'_> {
             }
         }
         Ok(())
+    }
+
+    /// The IMU that is named, or the only one there is, with its readings.
+    fn gyroscope(&self) -> Option<(&str, &[Received<Inertial>])> {
+        let mut all = self.imu.iter();
+        let (topic, readings) = match (&self.options.imu_topic, all.len()) {
+            (Some(named), _) => all.find(|(topic, _)| *topic == named)?,
+            (None, 1) => all.next()?,
+            (None, _) => return None,
+        };
+        Some((topic, readings))
     }
 
     /// Leaves out poses of second choice that hardly ever change.
@@ -281,5 +298,50 @@ fn located(
         return Err(format!("{positions}, and none has a yaw of {imu} at its time"));
     }
     warnings.push(Warning::FromFixes { topic: topic.to_owned(), imu: imu.clone() });
+    Ok(poses)
+}
+
+/// Poses at the fixes of a topic, with the yaw of a gyroscope that is turned to their course.
+fn by_gyroscope(
+    topic: &str,
+    fixes: &[Fix],
+    (imu, readings): (&str, &[Received<Inertial>]),
+    options: &RosbagOptions,
+    warnings: &mut Vec<Warning>,
+) -> Result<Vec<Received<[f64; 3]>>, String> {
+    let readings = upright(imu, readings.to_vec(), &mut Vec::new());
+    let clocks = [Clock::of(topic, fixes), Clock::of(imu, &readings)];
+    let (by, told) = decide(&clocks, options.dated_by);
+    let is_ned = options.pose_axes == PoseAxes::NorthEastDown;
+    let from_east = |yaw: f64| if is_ned { -yaw } else { yaw };
+    let turned = gyro::headings(&readings);
+    let mut known: Vec<(i64, f64)> = turned
+        .iter()
+        .filter_map(|reading| Some((clocks[1].date(by, reading)?, from_east(reading.value[2]))))
+        .collect();
+    known.sort_by_key(|(time, _)| *time);
+    let mut dated: Vec<(i64, Fix)> =
+        fixes.iter().filter_map(|fix| Some((clocks[0].date(by, fix)?, *fix))).collect();
+    dated.sort_by_key(|(time, _)| *time);
+    let (mut poses, left_out, course) =
+        fixes::poses_by_gyroscope(&dated, &known).map_err(|problem| {
+            format!(
+                "{topic} (NavSatFix) has positions without yaw; {imu}: {problem}; --pose-topic \
+                 {imu} takes its yaw alone, for x_r - x_l"
+            )
+        })?;
+    warnings.extend(told);
+    if is_ned {
+        for pose in &mut poses {
+            let [east, north, yaw] = pose.value;
+            pose.value = [north, east, FRAC_PI_2 - yaw];
+        }
+    }
+    if left_out > 0 {
+        let (topic, reason) = (topic.to_owned(), format!("{imu} has no yaw at its time"));
+        warnings.push(Warning::MessagesSkipped { topic, count: left_out, reason });
+    }
+    let (topic, imu) = (topic.to_owned(), imu.to_owned());
+    warnings.push(Warning::FromCourse { topic, imu, course });
     Ok(poses)
 }

@@ -109,8 +109,8 @@ pub struct Seen {
     pub is_lost: bool,
 }
 
-/// Variance of a place that nobody saw, m²: large enough to tell nothing, small enough that rounding
-/// keeps the noise of a pose beside it.
+/// Variance of a place that nobody saw, m²: large enough to tell nothing, small enough that
+/// rounding keeps the noise of a pose beside it.
 const UNKNOWN_PLACE: f64 = 1e4;
 
 impl Seen {

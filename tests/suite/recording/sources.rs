@@ -250,7 +250,7 @@ fn fixes_are_poses_with_the_yaw_of_an_imu_and_are_refused_without() {
     for row in poses {
         let row_truth = all.iter().find(|(t, ..)| (t - row.t).abs() < 1e-6).expect("a step").1;
         // A rate holds for 0.1 s, in which the robot turns by 0.05 rad.
-        assert!((row.pose.yaw - row_truth[2]).abs() < 0.06, "{} {}", row.pose.yaw, row_truth[2]);
+        assert!((row.pose.yaw - row_truth[2]).abs() < 0.05, "{} {}", row.pose.yaw, row_truth[2]);
     }
     assert!(recording.warnings().iter().any(|one| matches!(one, Warning::FromCourse { .. })));
 

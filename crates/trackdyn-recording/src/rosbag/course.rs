@@ -54,25 +54,30 @@ pub(super) struct Straight {
     pub(super) off: f64,
 }
 
-/// The pieces of a way in which the robot drives straight, forward or backward.
+/// The pieces of a way in which the robot drives straight, forward or backward. The yaw of a piece
+/// is the mean along its way: to first order its chord has that direction.
 pub(super) fn straight(poses: &[(i64, Received<[f64; 3]>)]) -> Vec<Straight> {
     let mut pieces = Vec::new();
-    let mut start: Option<&(i64, Received<[f64; 3]>)> = None;
-    for pose in poses {
-        let [x, y, yaw] = pose.1.value;
-        let Some((begins, first)) = start else {
-            start = Some(pose);
-            continue;
-        };
-        let [x0, y0, yaw0] = first.value;
+    let mut start = 0;
+    // way, m, and its product with the yaw since the start, m rad
+    let (mut way, mut turned_along) = (0.0, 0.0);
+    for k in 1..poses.len() {
+        let [(begins, first), (_, before), (time, pose)] =
+            [start, k - 1, k].map(|index| &poses[index]);
+        let ([x0, y0, yaw0], [x1, y1, yaw1]) = (first.value, before.value);
+        let [x, y, yaw] = pose.value;
         let (turned, length) = (wrapped(yaw - yaw0), (x - x0).hypot(y - y0));
-        if turned.abs() > MAX_STRAIGHT_TURN {
-            start = Some(pose);
-        } else if length >= COURSE_LENGTH {
-            let time = begins + pose.0.saturating_sub(*begins) / 2;
-            let off = (y - y0).atan2(x - x0) - (yaw0 + turned / 2.0);
-            pieces.push(Straight { time, length, off });
-            start = Some(pose);
+        let step = (x - x1).hypot(y - y1);
+        way += step;
+        turned_along += step * (wrapped(yaw1 - yaw0) + wrapped(yaw - yaw1) / 2.0);
+        let is_long = length >= COURSE_LENGTH;
+        if is_long && turned.abs() <= MAX_STRAIGHT_TURN {
+            let middle = begins + time.saturating_sub(*begins) / 2;
+            let off = (y - y0).atan2(x - x0) - (yaw0 + turned_along / way);
+            pieces.push(Straight { time: middle, length, off });
+        }
+        if is_long || turned.abs() > MAX_STRAIGHT_TURN {
+            (start, way, turned_along) = (k, 0.0, 0.0);
         }
     }
     pieces

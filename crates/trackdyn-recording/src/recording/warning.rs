@@ -18,6 +18,10 @@ pub struct Course {
     pub pieces: usize,
     /// Bias that was taken off the yaw rates, rad/s.
     pub bias: f64,
+    /// True yaw rate per measured one, 1.
+    pub scale: f64,
+    /// Its standard deviation: an error that all yaw of the recording shares.
+    pub scale_deviation: f64,
     /// Scatter of the courses about the yaw, rad.
     pub scatter: f64,
 }
@@ -347,10 +351,13 @@ fn from_course(f: &mut fmt::Formatter, topic: &str, imu: &str, of: &Course) -> f
         f,
         "{topic}: positions of its antenna in metres east and north of the first fix, with the \
          yaw that {imu} turns, from where the course of {} straight pieces says that the robot \
-         looks: they scatter by {:.1} degrees, at a bias of {:.3} degrees per second",
+         looks: they scatter by {:.1} degrees, at a bias of {:.3} degrees per second and a scale of \
+         {:.4} (standard error {:.4})",
         of.pieces,
         of.scatter.to_degrees(),
-        of.bias.to_degrees()
+        of.bias.to_degrees(),
+        of.scale,
+        of.scale_deviation
     )
 }
 

@@ -293,13 +293,16 @@ mod tests {
     #[test]
     fn a_gyroscope_is_turned_to_the_course() {
         const BIAS: f64 = 0.003;
+        const SCALE: f64 = 0.99;
         let (fixes, mut turned, truth) = drive(|yaw| yaw - 1.7);
         for (time, angle) in &mut turned {
-            *angle += BIAS * crate::rosbag::date::seconds(0, *time);
+            *angle = *angle / SCALE + BIAS * crate::rosbag::date::seconds(0, *time);
         }
         let (poses, left_out, course) = poses_by_gyroscope(&fixes, &turned).expect("poses");
         assert_eq!((poses.len(), left_out), (truth.len(), 0));
-        assert!((course.bias - BIAS).abs() < 1e-5, "{course:?}");
+        // b is of the true rate, and so is 1 + e of the measured one
+        assert!((course.bias - SCALE * BIAS).abs() < 1e-5, "{course:?}");
+        assert!((course.scale - SCALE).abs() < 1e-4, "{course:?}");
         assert!(course.scatter < 1e-3 && course.pieces >= 40, "{course:?}");
         for (pose, [.., yaw]) in poses.iter().zip(truth) {
             assert!(wrapped(pose.value[2] - yaw).abs() < 1e-3, "{} {yaw}", pose.value[2]);

@@ -4,6 +4,7 @@ use super::{Recording, Seen};
 use std::borrow::Cow;
 use trackdyn_estimate::gyroscope::Unfit;
 use trackdyn_estimate::{Clock, Gyroscope, with_gyroscope};
+use trackdyn_recording::Warning;
 
 impl Recording {
     /// This recording with the yaw of its poses corrected by its gyroscope, where it has one that
@@ -30,10 +31,14 @@ impl Recording {
     }
 
     /// Relative error that all yaw of its poses shares, 1: the standard deviation of the scale of
-    /// the gyroscope that corrects them.
+    /// the gyroscope that corrects or makes them.
     pub(crate) fn yaw_scale(&self) -> f64 {
         let served = self.gyroscope().and_then(|found| found.as_ref().ok());
-        served.map_or(0.0, |found| found.scale_deviation)
+        let made = self.warnings().iter().find_map(|warning| match warning {
+            Warning::FromCourse { course, .. } => Some(course.scale_deviation),
+            _ => None,
+        });
+        served.map_or(0.0, |found| found.scale_deviation).hypot(made.unwrap_or(0.0))
     }
 
     /// What its gyroscope tells of the yaw of its poses, or why it does not serve; none where it

@@ -351,8 +351,8 @@ fn from_course(f: &mut fmt::Formatter, topic: &str, imu: &str, of: &Course) -> f
         f,
         "{topic}: positions of its antenna in metres east and north of the first fix, with the \
          yaw that {imu} turns, from where the course of {} straight pieces says that the robot \
-         looks: they scatter by {:.1} degrees, at a bias of {:.3} degrees per second and a scale of \
-         {:.4} (standard error {:.4})",
+         looks: they scatter by {:.1} degrees, at a bias of {:.3} degrees per second and a scale \
+         of {:.4} (standard error {:.4})",
         of.pieces,
         of.scatter.to_degrees(),
         of.bias.to_degrees(),

@@ -200,9 +200,9 @@ impl Fit {
         deviation_about_zero(&mut left.collect::<Vec<_>>())
     }
 
-    /// Residuals r = ψ − s G(t − τ) − b t of some rows, with the bias that fits each run.
+    /// Residuals r = ψ − s G(t − τ) − b t of some rows, with the bias that fits each session.
     pub(super) fn residuals(&self, rows: &[Row]) -> Vec<Vec<f64>> {
-        let of_run = |rows: &[Row]| -> Vec<Vec<f64>> {
+        let of_session = |rows: &[Row]| -> Vec<Vec<f64>> {
             let residuals: Vec<Vec<f64>> = rows
                 .iter()
                 .map(|row| {
@@ -219,7 +219,7 @@ impl Fit {
             });
             without.collect()
         };
-        rows.chunk_by(|a, b| a.session == b.session).flat_map(of_run).collect()
+        rows.chunk_by(|a, b| a.session == b.session).flat_map(of_session).collect()
     }
 
     /// True yaw rate at a pose of a row, rad/s.

@@ -5,7 +5,7 @@ use super::{Collector, PoseKey, gyro, push};
 use crate::Error;
 use crate::attitude::Attitude;
 use crate::recording::{PoseAxes, Warning};
-use crate::rosbag::clock::{Clock, decide};
+use crate::rosbag::clock::{By, Clock, decide};
 use crate::rosbag::date::Received;
 use crate::rosbag::fixes::{self, Fix, Yaw};
 use crate::rosbag::message::{fix, header, oriented_pose};
@@ -273,30 +273,12 @@ fn located(
     // towards east.
     let is_ned = options.pose_axes == PoseAxes::NorthEastDown;
     let from_east = |yaw: f64| if is_ned { FRAC_PI_2 - yaw } else { yaw };
-    let mut known: Vec<(i64, f64)> = yaws
-        .iter()
-        .filter_map(|yaw| Some((clocks[1].date(by, yaw)?, from_east(yaw.value))))
-        .collect();
-    known.sort_by_key(|(time, _)| *time);
-    let mut dated: Vec<(i64, Fix)> =
-        fixes.iter().filter_map(|fix| Some((clocks[0].date(by, fix)?, *fix))).collect();
-    dated.sort_by_key(|(time, _)| *time);
+    let known = dated(&clocks[1], by, yaws, |yaw| from_east(yaw.value));
+    let fixes = dated(&clocks[0], by, fixes, |fix| *fix);
     let mount = options.mount_yaw.unwrap_or_default();
-    let (mut poses, left_out) = fixes::poses(&dated, &known, mount)
+    let found = fixes::poses(&fixes, &known, mount)
         .map_err(|problem| format!("{positions}; {imu}: {problem}"))?;
-    if is_ned {
-        for pose in &mut poses {
-            let [east, north, yaw] = pose.value;
-            pose.value = [north, east, FRAC_PI_2 - yaw];
-        }
-    }
-    if left_out > 0 {
-        let (topic, reason) = (topic.to_owned(), format!("{imu} has no yaw at its time"));
-        warnings.push(Warning::MessagesSkipped { topic, count: left_out, reason });
-    }
-    if poses.is_empty() {
-        return Err(format!("{positions}, and none has a yaw of {imu} at its time"));
-    }
+    let poses = taken(topic, imu, found, is_ned, warnings)?;
     warnings.push(Warning::FromFixes { topic: topic.to_owned(), imu: imu.clone() });
     Ok(poses)
 }
@@ -315,22 +297,44 @@ fn by_gyroscope(
     let is_ned = options.pose_axes == PoseAxes::NorthEastDown;
     let from_east = |yaw: f64| if is_ned { -yaw } else { yaw };
     let turned = gyro::headings(&readings);
-    let mut known: Vec<(i64, f64)> = turned
-        .iter()
-        .filter_map(|reading| Some((clocks[1].date(by, reading)?, from_east(reading.value[2]))))
-        .collect();
-    known.sort_by_key(|(time, _)| *time);
-    let mut dated: Vec<(i64, Fix)> =
-        fixes.iter().filter_map(|fix| Some((clocks[0].date(by, fix)?, *fix))).collect();
-    dated.sort_by_key(|(time, _)| *time);
-    let (mut poses, left_out, course) =
-        fixes::poses_by_gyroscope(&dated, &known).map_err(|problem| {
+    let known = dated(&clocks[1], by, &turned, |reading| from_east(reading.value[2]));
+    let fixes = dated(&clocks[0], by, fixes, |fix| *fix);
+    let (found, left_out, course) =
+        fixes::poses_by_gyroscope(&fixes, &known).map_err(|problem| {
             format!(
                 "{topic} (NavSatFix) has positions without yaw; {imu}: {problem}; --pose-topic \
                  {imu} takes its yaw alone, for x_r - x_l"
             )
         })?;
     warnings.extend(told);
+    let poses = taken(topic, imu, (found, left_out), is_ned, warnings)?;
+    let (topic, imu) = (topic.to_owned(), imu.to_owned());
+    warnings.push(Warning::FromCourse { topic, imu, course });
+    Ok(poses)
+}
+
+/// What messages of a topic say, with the times at which it was measured, ns, in their order.
+fn dated<T, U>(
+    clock: &Clock,
+    by: By,
+    received: &[Received<T>],
+    value: impl Fn(&Received<T>) -> U,
+) -> Vec<(i64, U)> {
+    let mut dated: Vec<(i64, U)> =
+        received.iter().filter_map(|one| Some((clock.date(by, one)?, value(one)))).collect();
+    dated.sort_by_key(|(time, _)| *time);
+    dated
+}
+
+/// The poses at fixes, along the axes that are wanted; fixes without a yaw of the IMU, which are
+/// counted, are told.
+fn taken(
+    topic: &str,
+    imu: &str,
+    (mut poses, left_out): (Vec<Received<[f64; 3]>>, u64),
+    is_ned: bool,
+    warnings: &mut Vec<Warning>,
+) -> Result<Vec<Received<[f64; 3]>>, String> {
     if is_ned {
         for pose in &mut poses {
             let [east, north, yaw] = pose.value;
@@ -341,7 +345,10 @@ fn by_gyroscope(
         let (topic, reason) = (topic.to_owned(), format!("{imu} has no yaw at its time"));
         warnings.push(Warning::MessagesSkipped { topic, count: left_out, reason });
     }
-    let (topic, imu) = (topic.to_owned(), imu.to_owned());
-    warnings.push(Warning::FromCourse { topic, imu, course });
+    if poses.is_empty() {
+        return Err(format!(
+            "{topic} (NavSatFix) has positions without yaw, and none has a yaw of {imu} at its time"
+        ));
+    }
     Ok(poses)
 }

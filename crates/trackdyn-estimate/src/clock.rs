@@ -160,7 +160,7 @@ const MIN_CLEAR_SHARE: f64 = 0.5;
 /// driving that repeats itself are hardly higher.
 const MAX_LEFT_BY_FAR_PEAK: f64 = 0.5;
 
-/// Most pose intervals of the search that is tried last.
+/// Most pose intervals of a search over a wide range.
 const MAX_INTERVALS: usize = 2000;
 
 /// Width of the search uphill on either side, s.
@@ -190,6 +190,17 @@ impl Peak {
         needed: usize,
     ) -> Result<Self, usize> {
         Self::of_every(1, intervals, [first, last], step, needed)
+    }
+
+    /// As [`Peak::within`], of a wide range: by a part of the pose intervals where they are many.
+    fn of_some(
+        intervals: &Intervals,
+        range: [f64; 2],
+        step: f64,
+        needed: usize,
+    ) -> Result<Self, usize> {
+        let stride = intervals.count().div_ceil(MAX_INTERVALS).max(1);
+        Self::of_every(stride, intervals, range, step, needed.div_ceil(stride))
     }
 
     /// As [`Peak::within`], by every so many of the pose intervals.
@@ -237,7 +248,7 @@ fn highest(intervals: &Intervals, search: &ClockSearch) -> Result<Peak, usize> {
     }
     let needed = share(near.fit.count);
     let reach = [-search.farthest, search.farthest];
-    let far = Peak::within(intervals, reach, FAR_STEP, needed)
+    let far = Peak::of_some(intervals, reach, FAR_STEP, needed)
         .ok()
         .filter(|far| far.left() <= MAX_LEFT_BY_FAR_PEAK * near.left());
     let best = match far {
@@ -284,9 +295,8 @@ fn uphill(intervals: &Intervals, near: Peak, search: &ClockSearch) -> Result<Pea
 /// A clear peak beyond the search: of clocks that were set by hand, or in another time zone.
 fn farthest(intervals: &Intervals, search: &ClockSearch) -> Option<Peak> {
     let needed = share(intervals.count());
-    let stride = intervals.count().div_ceil(MAX_INTERVALS).max(1);
     let range = [-search.last, search.last];
-    let far = Peak::of_every(stride, intervals, range, FAR_STEP, needed.div_ceil(stride)).ok()?;
+    let far = Peak::of_some(intervals, range, FAR_STEP, needed).ok()?;
     let fine = around(intervals, far, needed).ok()?;
     (fine.fit.correlation >= CLEAR_CORRELATION && !fine.is_at_end).then_some(fine)
 }

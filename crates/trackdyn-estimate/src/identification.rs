@@ -8,7 +8,7 @@ use crate::least_squares::{
     Estimate, Loss, Unknowns, doubts, estimate_at, lacks, lacks_nuisance, least_squares,
     nuisance_doubts, whitened_rms,
 };
-use crate::noise::{Noise, noise};
+use crate::noise::{Noise, noise_beside, of_encoders};
 use crate::observations::Observations;
 use crate::parameters::{Free, Parameters};
 use crate::residual_noise::residual_noise;
@@ -187,6 +187,7 @@ pub fn identify_unless_stopped(
     }
     let is_open = fits.iter().all(|fit| fit.least_squares.is_err() || !fit.doubts.is_empty());
     let separation = if is_open { Separation::of_motions(observations).ok() } else { None };
+    let separation = separation.map(|found| found.with_yaw_scale(options.yaw_scale));
     Ok(Identification {
         segments: observations.len(),
         response: seen.response,
@@ -258,6 +259,7 @@ impl<'a> Seen<'a> {
             if options.nuisances.contains(&Nuisance::TimeOffset) { TAU_MARGIN } else { 0.0 };
         let segments = SegmentOptions { tau, tau_margin, ..SegmentOptions::default() };
         let response = Response::of(recording, tau);
+        let encoders = of_encoders(recording);
         let applied = response.as_ref().and_then(|response| response.applied(recording));
         let (recording, segments) = match applied {
             Some(weighted) => {
@@ -273,7 +275,7 @@ impl<'a> Seen<'a> {
         if observations.len() < needed {
             return Err(too_few(&recording, &observations, options));
         }
-        let noise = noise(&recording, tau);
+        let noise = noise_beside(&recording, tau, encoders);
         let spin_test = spin_test(&observations, options.gauge);
         // Only the weights of the encoders' noise depend on it, and roughly: its size is enough.
         let gap = spin_test.as_ref().map_or(1.5 * options.gauge, |spin| spin.gap);
@@ -330,15 +332,17 @@ impl<'a> Seen<'a> {
             }
         };
         let fit = |by: &Weighting| fit_with_sensor(observations, &cut, noise, free, by, options);
-        let (estimate, refused) = match (fit(weighting), weighting) {
-            ((Ok(first), _), &Weighting::Noise(measured)) => {
-                let by_scatter = Weighting::Noise(scatter(observations, &first, measured));
-                let (again, refused) = fit(&by_scatter);
-                let beside_noise = |again: Estimate| {
-                    let whitened_rms = whitened_rms(observations, &again, weighting);
-                    Estimate { whitened_rms, ..again }
-                };
-                (again.map(beside_noise), refused)
+        let Fitted { estimate, refused, .. } = match (fit(weighting), weighting) {
+            (Fitted { estimate: Ok(first), cut, .. }, &Weighting::Noise(measured)) => {
+                let observed = cut.as_ref().unwrap_or(observations);
+                let by_scatter = Weighting::Noise(scatter(observed, &first, measured));
+                let again = fit(&by_scatter);
+                let observed = again.cut.as_ref().unwrap_or(observations);
+                let estimate = again.estimate.map(|estimate| {
+                    let whitened_rms = whitened_rms(observed, &estimate, weighting);
+                    Estimate { whitened_rms, ..estimate }
+                });
+                Fitted { estimate, cut: None, ..again }
             }
             (first, _) => first,
         };
@@ -373,8 +377,17 @@ fn cut(recording: &Recording, segments: &SegmentOptions, options: &Options) -> O
     }
 }
 
-/// Least squares with those of the wanted properties of the sensor that the recording shows, and
-/// the reasons against the others.
+/// Least squares with those of the wanted properties of the sensor that the recording shows.
+struct Fitted {
+    estimate: Result<Estimate, Error>,
+    /// The segments that it was fitted to, where the clock offset had them cut anew.
+    cut: Option<Observations>,
+    /// The reasons against the other properties.
+    refused: Vec<Doubt>,
+}
+
+/// Least squares with the properties of the sensor that the recording shows; `cut` cuts it at
+/// another clock offset.
 fn fit_with_sensor(
     observations: &Observations,
     cut: &dyn Fn(f64) -> Observations,
@@ -382,7 +395,7 @@ fn fit_with_sensor(
     free: Free,
     weighting: &Weighting,
     options: &Options,
-) -> (Result<Estimate, Error>, Vec<Doubt>) {
+) -> Fitted {
     let start = Parameters::of(&Kinematics::ideal(options.gauge));
     let mut unknowns = Unknowns::from(free);
     let mut refused = Vec::new();
@@ -396,16 +409,17 @@ fn fit_with_sensor(
         let fit = |observations: &Observations| {
             least_squares(observations, &start, &unknowns, weighting, Loss::Huber)
         };
-        let mut fitted = fit(observations);
+        let mut estimate = fit(observations);
+        let mut moved = None;
         for _ in 0..MAX_CUTS {
             // Readings are at hand up to the margin: where the offset reaches it, segments are cut
             // anew.
-            let Err(Error::ClockLeaves { tau, .. }) = fitted else { break };
-            fitted = fit(&cut(tau));
+            let Err(Error::ClockLeaves { tau, .. }) = estimate else { break };
+            estimate = fit(moved.insert(cut(tau)));
         }
-        let wide = fitted.as_ref().map_or(Vec::new(), nuisance_doubts);
+        let wide = estimate.as_ref().map_or(Vec::new(), nuisance_doubts);
         if wide.is_empty() {
-            return (fitted, refused);
+            return Fitted { estimate, cut: moved, refused };
         }
         let is_wide = |nuisance: &Nuisance| {
             let of = |doubt: &Doubt| match doubt {

@@ -6,6 +6,9 @@
 use statrs::distribution::{ContinuousCDF, StudentsT};
 use trackdyn_core::real;
 
+/// z₀.₉₇₅ of the normal distribution.
+const NORMAL_QUANTILE: f64 = 1.959_964;
+
 /// A number with its 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
@@ -39,22 +42,31 @@ impl Interval {
     /// Student's interval; the degrees of freedom are the blocks less the parameters.
     pub fn new(value: f64, deviation: f64, blocks: usize, parameters: usize) -> Self {
         let freedom = real(blocks.saturating_sub(parameters).max(1));
-        let quantile =
-            StudentsT::new(0.0, 1.0, freedom).map_or(1.96, |student| student.inverse_cdf(0.975));
+        let quantile = StudentsT::new(0.0, 1.0, freedom)
+            .map_or(NORMAL_QUANTILE, |student| student.inverse_cdf(0.975));
         let half = quantile * deviation;
         Self { value, deviation, low: value - half, high: value + half }
     }
 
     /// This interval, of a number above 0, in the denominator: χ = L/(x_r − x_l) has its low end
-    /// where the distance has its high one.
+    /// where the distance has its high one, and no high end where that may be 0.
     pub fn dividing(&self, numerator: f64) -> Self {
         let Self { value, deviation, low, high } = *self;
         Self {
             value: numerator / value,
             deviation: numerator / value.powi(2) * deviation,
             low: numerator / high,
-            high: numerator / low,
+            high: if low > 0.0 { numerator / low } else { f64::INFINITY },
         }
+    }
+
+    /// This interval, of a number that has a normal error of this standard deviation beside.
+    #[must_use]
+    pub fn with_error(&self, deviation: f64) -> Self {
+        let Self { value, deviation: own, low, high } = *self;
+        let half = |half: f64| half.hypot(NORMAL_QUANTILE * deviation);
+        let (low, high) = (value - half(value - low), value + half(high - value));
+        Self { value, deviation: own.hypot(deviation), low, high }
     }
 
     /// Half its width.
@@ -74,6 +86,17 @@ mod tests {
             let half = Interval::new(0.0, 1.0, freedom + 1, 1).half_width();
             assert!((half - value).abs() < 5e-4, "{freedom}: {half}");
         }
+    }
+
+    #[test]
+    fn an_error_beside_widens_by_the_sum_of_squares() {
+        let found = Interval::new(2.0, 0.03, 7, 1).with_error(0.0);
+        assert_eq!(found, Interval::new(2.0, 0.03, 7, 1));
+        let wide = found.with_error(0.04);
+        // t₀.₉₇₅(6) = 2.447, z₀.₉₇₅ = 1.960
+        let half = (2.447_f64 * 0.03).hypot(1.960 * 0.04);
+        assert!((wide.half_width() - half).abs() < 1e-4 && wide.value == 2.0, "{wide:?}");
+        assert!((wide.deviation - 0.05).abs() < 1e-12);
     }
 
     #[test]

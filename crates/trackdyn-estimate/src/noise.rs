@@ -107,17 +107,25 @@ impl fmt::Display for Method {
     }
 }
 
-/// Noise of the encoder of a side; none where its speeds are commands, or too few.
-pub(crate) fn of_encoder(recording: &Recording, side: Side) -> Option<EncoderNoise> {
-    encoder::noise(recording, side)
-}
-
 /// Measures the noise; `tau` is the clock offset of the poses, s ([`clock`](crate::clock)).
 pub fn noise(recording: &Recording, tau: f64) -> Noise {
-    let encoders = PerSide::from_fn(|side| encoder::noise(recording, side));
+    noise_beside(recording, tau, of_encoders(recording))
+}
+
+/// Noise of the encoder of each side; none where its speeds are commands, or too few.
+pub(crate) fn of_encoders(recording: &Recording) -> PerSide<Option<EncoderNoise>> {
+    PerSide::from_fn(|side| encoder::noise(recording, side))
+}
+
+/// The noise beside that of the encoders, which is known: a filter of their speeds changes it.
+pub(crate) fn noise_beside(
+    recording: &Recording,
+    tau: f64,
+    encoders: PerSide<Option<EncoderNoise>>,
+) -> Noise {
     let deviation = PerSide::from_fn(|side: Side| encoders[side].map(|noise| noise.deviation));
     Noise {
-        standing: triples::standing(recording),
+        standing: triples::standing(recording, tau),
         moving: triples::moving(recording, tau, deviation),
         encoders,
     }

@@ -28,7 +28,7 @@ mod rows;
 use crate::{Blocks, Extent, Interval};
 use nalgebra::{DMatrix, DVector};
 use rows::{Delays, Part, Rows, weighted};
-use trackdyn_core::{Side, real};
+use trackdyn_core::{PerSide, real};
 use trackdyn_recording::Recording;
 
 /// Times over which turning is compared, s.
@@ -195,8 +195,8 @@ fn gain(one: &Fit, several: &Fit) -> f64 {
 
 /// Whether the speeds of both sides are commands: they are held for longer than a measured speed.
 fn are_held(recording: &Recording) -> bool {
-    let noise = Side::BOTH.map(|side| crate::noise::of_encoder(recording, side));
-    noise.iter().all(Option::is_none)
+    let PerSide { left, right } = crate::noise::of_encoders(recording);
+    left.is_none() && right.is_none()
 }
 
 /// Parts that count as independent: of many runs these, else pieces that are long against the

@@ -21,9 +21,11 @@ pub struct SegmentOptions {
     /// A segment spans at least this many readings of the tracks, by the median intervals of the
     /// run.
     pub minimum_readings: usize,
-    /// A longer interval between two poses is not bridged, s; none: five times the run's median.
+    /// A longer interval between two poses is not bridged, s; none: five times the run's median,
+    /// and at least 0.1 s.
     pub longest_pose_interval: Option<f64>,
-    /// A longer interval between two readings is not bridged, s; none: five times the run's median.
+    /// A longer interval between two readings is not bridged, s; none: five times the run's median,
+    /// and at least 0.1 s.
     pub longest_track_interval: Option<f64>,
     /// Clock offset of the poses against the encoders, s ([`hold`](trackdyn_recording::hold)).
     pub tau: f64,

@@ -96,6 +96,7 @@ impl Turning {
         if let Some(response) = response.as_ref().filter(|response| !response.is_at_once()) {
             separation.gap = response.gap;
         }
+        let separation = separation.with_yaw_scale(recording.yaw_scale_deviation());
         Ok(Self { clock, response, segments: observations.len(), separation })
     }
 }
@@ -104,6 +105,13 @@ impl Separation {
     /// χ = L/(x_r − x_l), eq. (12), for a gauge, m.
     pub fn steering_efficiency(&self, gauge: f64) -> Interval {
         self.gap.dividing(gauge)
+    }
+
+    /// The distance where all yaw shares a relative error of this standard deviation, which no
+    /// scatter shows.
+    #[must_use]
+    pub fn with_yaw_scale(self, deviation: f64) -> Self {
+        Self { gap: self.gap.with_error(deviation * self.gap.value), ..self }
     }
 
     /// The distance by the segments of a drive.
@@ -135,7 +143,7 @@ impl Separation {
     /// The distance by the yaw rates of steady points.
     ///
     /// # Errors
-    /// [`Error::NotEstimable`] with fewer than three that turn.
+    /// [`Error::NotEstimable`] with fewer than two that turn.
     pub fn of_points(points: &[OperatingPoint]) -> Result<Self, Error> {
         let turns = points.iter().enumerate().filter_map(|(group, point)| {
             let difference = point.v_right - point.v_left;
@@ -239,6 +247,8 @@ fn slope<'a>(turns: impl Iterator<Item = &'a Turn>) -> f64 {
 mod tests {
     use super::*;
     use crate::synthetic::{Synthetic, random_steps};
+    use trackdyn_core::Pose;
+    use trackdyn_recording::Warning;
 
     #[test]
     fn spins_timed_by_hand_give_the_distance_with_its_interval() {
@@ -308,5 +318,36 @@ mod tests {
         }
         // 95 % of 20, and three standard deviations of the count below it
         assert!(within >= 16, "{within} of 20 intervals");
+    }
+
+    /// No scatter shows that a gyroscope says too much of every turn.
+    #[test]
+    fn the_scale_of_a_gyroscope_is_in_the_interval() {
+        let synthetic = Synthetic {
+            schedules: (0..4).map(|run| random_steps(20, 2.0, 0.8, run)).collect(),
+            yaw_noise: 0.002,
+            ..Synthetic::default()
+        };
+        let drive = synthetic.recording().expect("long enough");
+        let gap = |scale: f64, warnings: Vec<Warning>| {
+            let runs = drive.runs().iter().cloned().map(|run| {
+                let mut rows = run.into_rows();
+                for sample in &mut rows.poses.samples {
+                    sample.pose = Pose::new(f64::NAN, f64::NAN, scale * sample.pose.yaw);
+                }
+                rows
+            });
+            let source = trackdyn_recording::Source::computed();
+            let alone = Recording::new("yaw", "robot", runs.collect(), source, warnings);
+            let found = Turning::of(&alone.expect("usable"), Some(0.0)).expect("turns");
+            found.separation.gap
+        };
+        let gyroscope = || vec![Warning::YawOfGyroscope { gyroscope: "imu".to_owned() }];
+        let measured = gap(1.015, Vec::new());
+        assert!(measured.high < 0.832, "{measured:?}");
+        let integrated = gap(1.015, gyroscope());
+        assert!(integrated.low < 0.832 && 0.832 < integrated.high, "{integrated:?}");
+        assert_eq!(integrated.value, measured.value);
+        assert!(integrated.half_width() < 0.03 * integrated.value, "{integrated:?}");
     }
 }

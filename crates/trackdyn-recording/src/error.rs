@@ -184,6 +184,18 @@ impl Error {
             (error, _) => error,
         }
     }
+
+    /// This error, where track speeds are computed from a twist: no option reads another unit.
+    pub(crate) fn of_twist(self) -> Self {
+        match self {
+            Self::Contradiction { path, doubt: doubt @ Doubt::Travel { .. }, joints, .. } => {
+                let remedy = "expected a twist in m/s and rad/s, of what the wheels did; \
+                              --left-joint and --right-joint take the encoders themselves";
+                Self::Contradiction { path, doubt, remedy: remedy.to_owned(), joints }
+            }
+            error => error,
+        }
+    }
 }
 
 impl From<DocumentError> for Error {

@@ -5,7 +5,9 @@
 //! all of them into runs. Further columns are kept. Where a CSV file is not there, a Parquet file
 //! of the same columns may be (`tracks.parquet`; needs the feature `parquet`).
 
-use crate::recording::{Recording, Source, UncheckedRun, Warning, divide, turn_by_gyroscope};
+use crate::recording::{
+    Recording, Source, UncheckedRun, Warning, divide, turn_by_gyroscope, turn_sensor,
+};
 use crate::sample::{Sample, Series, TrackSample};
 use crate::{Error, Format, TableOptions};
 use std::collections::BTreeMap;
@@ -62,12 +64,12 @@ pub fn read_by(folder: &Path, options: &TableOptions) -> Result<Recording, Error
         Source { format: Format::Folder, path: Some(folder.to_owned()), ..Source::computed() };
     let mut warnings = Vec::new();
     let mut runs = divide(runs.into_values().collect(), &mut warnings);
-    options.apply(folder, &mut runs)?;
+    options.from_units(folder, &mut runs)?;
     if by_gyroscope {
         runs.iter_mut().for_each(turn_by_gyroscope);
-        let taken = format!("the yaw of the gyroscope in {}, without positions", imu.display());
-        warnings.push(Warning::Chosen { what: "poses", taken });
+        warnings.push(Warning::YawOfGyroscope { gyroscope: imu.display().to_string() });
     }
+    turn_sensor(&mut runs, options.pose_axes, options.mount_yaw);
     let Manifest { name, robot, noise, pose_frame } = manifest;
     Recording::accepting(name, robot, runs, source, warnings, &options.accepted)
         .map_err(|error| error.of_wheels(options.speed_unit, options.wheel_radius))

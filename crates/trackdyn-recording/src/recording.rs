@@ -183,19 +183,54 @@ impl Recording {
             kept.retain(Run::has_positions);
         }
         warnings.extend(finding::gather(cleanings).into_iter().map(Warning::Cleaned));
-        let fingerprint = content::fingerprint(&kept);
-        let pose_fingerprint = content::pose_fingerprint(&kept);
-        Ok(Self {
+        Ok(Self::of_cleaned(name, robot.into(), kept, source, warnings))
+    }
+
+    /// A recording of runs that are cleaned, in the order of their ids.
+    fn of_cleaned(
+        name: String,
+        robot: String,
+        runs: Vec<Run>,
+        source: Source,
+        warnings: Vec<Warning>,
+    ) -> Self {
+        let fingerprint = content::fingerprint(&runs);
+        let pose_fingerprint = content::pose_fingerprint(&runs);
+        Self {
             name,
-            robot: robot.into(),
-            runs: kept,
+            robot,
+            runs,
             stated_noise: None,
             pose_frame: None,
             source,
             warnings,
             fingerprint,
             pose_fingerprint,
-        })
+        }
+    }
+
+    /// Several recordings of one robot as one, its runs numbered anew from 0 in their order. Runs
+    /// without positions are left out where others have them.
+    ///
+    /// # Errors
+    /// [`Error::Empty`] without runs.
+    pub fn joined(recordings: &[Self]) -> Result<Self, Error> {
+        let names: Vec<&str> = recordings.iter().map(Self::name).collect();
+        let name = names.join(" + ");
+        let robot = recordings.first().map_or("unknown", |first| first.robot());
+        let runs = recordings.iter().flat_map(Self::runs).zip(0..);
+        let mut runs: Vec<Run> = runs.map(|(run, id)| run.clone().with_id(id)).collect();
+        if runs.is_empty() {
+            return Err(Error::Empty { path: PathBuf::from(name), message: "no run".to_owned() });
+        }
+        if runs.iter().any(Run::has_positions) {
+            runs.retain(Run::has_positions);
+        }
+        let noise = recordings.iter().find_map(Self::stated_noise);
+        let frame = recordings.iter().find_map(Self::pose_frame);
+        let warnings = recordings.iter().flat_map(Self::warnings).cloned().collect();
+        let joined = Self::of_cleaned(name, robot.to_owned(), runs, Source::computed(), warnings);
+        Ok(joined.with_stated_noise(noise).with_pose_frame(frame))
     }
 
     /// This recording with a statement of its pose noise.
@@ -220,7 +255,7 @@ impl Recording {
         &self.robot
     }
 
-    /// The runs, in the order of their ids; each continuous and with its own pose frame.
+    /// The runs, in the order of their ids; each continuous.
     pub fn runs(&self) -> &[Run] {
         &self.runs
     }
@@ -254,6 +289,11 @@ impl Recording {
     /// What was cleaned, left out or guessed on the way in.
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
+    }
+
+    /// Relative error that all yaw shares, 1: a standard deviation, 0 where poses measure it.
+    pub fn yaw_scale_deviation(&self) -> f64 {
+        self.warnings.iter().filter_map(Warning::yaw_scale_deviation).fold(0.0, f64::hypot)
     }
 
     /// Fingerprint of the cleaned numbers: the same samples have the same one in every format.

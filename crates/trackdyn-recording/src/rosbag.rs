@@ -98,7 +98,7 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
                 let told = Told { kind, is_gyroscope, are_named, axes };
                 with_options(error.of_wheels(options.speed_unit, radius), &joints, &told)
             } else {
-                error
+                error.of_twist()
             }
         })
 }

@@ -1,6 +1,6 @@
 //! Parts of a recording: what is fitted on one part is judged on another.
 
-use crate::recording::{Recording, Source, UncheckedRun};
+use crate::recording::{Recording, UncheckedRun};
 use crate::sample::{Sample, Series};
 use crate::{Error, Run};
 use std::fmt;
@@ -93,21 +93,6 @@ impl Recording {
     pub fn of_runs(&self, list: &RunList) -> Result<Self, Error> {
         let indices = self.indices_of(list)?;
         Ok(self.with_runs(indices.into_iter().map(|index| self.runs()[index].clone()).collect()))
-    }
-
-    /// Several recordings of one robot as one, its runs numbered anew from 0 in their order.
-    ///
-    /// # Errors
-    /// [`Error::Empty`] without runs.
-    pub fn joined(recordings: &[Self]) -> Result<Self, Error> {
-        let names: Vec<&str> = recordings.iter().map(Self::name).collect();
-        let robot = recordings.first().map_or("unknown", |first| first.robot());
-        let runs = recordings.iter().flat_map(Self::runs).zip(0..);
-        let runs = runs.map(|(run, id)| UncheckedRun { id, ..run.clone().into_rows() }).collect();
-        let noise = recordings.iter().find_map(Self::stated_noise);
-        let frame = recordings.iter().find_map(Self::pose_frame);
-        let joined = Self::new(names.join(" + "), robot, runs, Source::computed(), Vec::new())?;
-        Ok(joined.with_stated_noise(noise).with_pose_frame(frame))
     }
 
     /// The recording of a time only, s from the first reading of each run; runs without readings or

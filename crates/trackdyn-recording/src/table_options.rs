@@ -2,7 +2,7 @@
 
 use crate::Error;
 use crate::doubt::DoubtKind;
-use crate::recording::{PoseAxes, UncheckedRun, turn_sensor};
+use crate::recording::{PoseAxes, UncheckedRun};
 use crate::unit::SpeedUnit;
 use std::path::Path;
 
@@ -24,11 +24,11 @@ pub struct TableOptions {
 }
 
 impl TableOptions {
-    /// Reads the rows of a table by these options.
+    /// Takes the rows of a table from these units.
     ///
     /// # Errors
     /// [`Error::Options`] for a unit of wheels without their radius, and the reverse.
-    pub(crate) fn apply(&self, path: &Path, runs: &mut [UncheckedRun]) -> Result<(), Error> {
+    pub(crate) fn from_units(&self, path: &Path, runs: &mut [UncheckedRun]) -> Result<(), Error> {
         let scale = scale_of_table(path, self.speed_unit, self.wheel_radius)?;
         for reading in runs.iter_mut().flat_map(|run| &mut run.tracks.samples) {
             reading.v_left *= scale;
@@ -39,7 +39,6 @@ impl TableOptions {
                 reading.gyro_z = reading.gyro_z.to_radians();
             }
         }
-        turn_sensor(runs, self.pose_axes, self.mount_yaw);
         Ok(())
     }
 }

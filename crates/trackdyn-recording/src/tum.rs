@@ -6,7 +6,7 @@
 
 use crate::attitude::Attitude;
 use crate::doubt::{Axes, Doubt, DoubtKind};
-use crate::recording::{Recording, Source, UncheckedRun, Warning, divide};
+use crate::recording::{Recording, Source, UncheckedRun, Warning, divide, turn_sensor};
 use crate::rosbag::yaw_of_quaternion;
 use crate::sample::{PoseSample, Series};
 use crate::table::{MAX_ROW_SIZE, MAX_ROWS, number, out_of_bounds, unreadable};
@@ -44,7 +44,8 @@ pub fn read_by(
     let (tracks, imu) = (folder::read_single_tracks(tracks)?, Series::default());
     let mut warnings: Vec<Warning> = tilted.into_iter().map(Warning::Accepted).collect();
     let mut runs = divide(vec![UncheckedRun { id: 0, tracks, poses, imu }], &mut warnings);
-    options.apply(trajectory, &mut runs)?;
+    options.from_units(trajectory, &mut runs)?;
+    turn_sensor(&mut runs, options.pose_axes, options.mount_yaw);
     let name = input::name_of(trajectory);
     let source =
         Source { format: Format::Tum, path: Some(trajectory.to_owned()), ..Source::computed() };

@@ -143,14 +143,11 @@ pub(crate) fn error(ratio: f64) -> Option<f64> {
     nearest(size).map(|(unit, ..)| (size / unit).max(unit / size))
 }
 
-/// The options by which track speeds that are so many times those of the poses are read.
-pub fn remedy(ratio: f64) -> String {
-    let unit = if ratio > 1.0 {
-        nearest(ratio).and_then(|(.., unit)| unit)
-    } else {
-        Some(SpeedUnit::TurnsPerSecond).filter(|_| mixed_up(ratio) == Some(MIXED[6].1))
-    };
-    let mut text = match unit {
+/// The options by which speeds are read that were taken for those of the tracks, and are so many
+/// times those of the poses. Units of wheels need a radius.
+pub(crate) fn remedy(ratio: f64) -> String {
+    let unit = if ratio > 1.0 { nearest(ratio).and_then(|(.., unit)| unit) } else { None };
+    let mut text = match unit.filter(|unit| !unit.is_of_wheels()) {
         Some(unit) => format!("read them with --speed-unit {unit}"),
         None => "expected m/s of tracks or rad/s of joints; --speed-unit takes others".to_owned(),
     };
@@ -272,9 +269,12 @@ mod tests {
     fn a_ratio_names_the_units_and_the_option() {
         assert_eq!(mixed_up(3.5), Some("km/h in place of m/s"));
         assert!(remedy(3.5).contains("--speed-unit km/h"));
-        assert!(remedy(9.3).contains("--speed-unit rpm"));
         assert!(remedy(6.06).contains("some 0.165 m (--speed-unit rad/s --wheel-radius METRES)"));
-        assert!(remedy(1.0 / 6.2).contains("--speed-unit turns/s"));
+        // A unit of wheels is refused without a radius.
+        for ratio in [9.3, 57.3, 1.0 / 6.2] {
+            let text = remedy(ratio);
+            assert!(text.starts_with("expected m/s of tracks"), "{text}");
+        }
         assert_eq!(mixed_up(1.2), None);
     }
 

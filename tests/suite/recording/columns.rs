@@ -147,7 +147,7 @@ fn a_gyroscope_may_stand_beside_poses_or_in_their_place() {
     let expected = poses.last().expect("some").pose.yaw - poses[0].pose.yaw;
     assert!(!run.has_positions() && (turned - expected).abs() < 0.05, "{turned} {expected}");
     let told = found.warnings().iter().map(ToString::to_string).collect::<String>();
-    assert!(told.contains("the yaw of the gyroscope in gyro, without positions"), "{told}");
+    assert!(told.contains("the yaw of the gyroscope gyro, without positions"), "{told}");
 }
 
 /// A compass without positions, held between its updates, tells the yaw as that of a folder does,

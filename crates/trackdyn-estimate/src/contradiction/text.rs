@@ -58,8 +58,7 @@ impl Display for Contradiction {
                     Some((ratio, units)) => write!(
                         f,
                         "the track speeds are {ratio:.3} times what the poses show, as {units} \
-                         would be: {}",
-                        unit::remedy(ratio)
+                         would be: check their unit (--speed-unit) and the wheel radius"
                     ),
                     None => f.write_str(
                         "check the wheel radius, the unit (--speed-unit) and the joints, or drive \

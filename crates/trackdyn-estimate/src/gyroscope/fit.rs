@@ -197,7 +197,7 @@ impl Fit {
         let product: f64 = by_scale.iter().zip(&residual).map(|(by, r)| by * r).sum();
         let change = if square > 0.0 { product / square } else { 0.0 };
         let left = residual.iter().zip(&by_scale).map(|(r, by)| r - change * by);
-        deviation_about_zero(&mut left.collect::<Vec<_>>())
+        deviation_about_zero(&mut of_turns(&left.collect::<Vec<_>>(), &by_scale))
     }
 
     /// Residuals r = ψ − s G(t − τ) − b t of some rows, with the bias that fits each session.
@@ -295,23 +295,42 @@ impl Fit {
 
     /// Step of scale and lag by Gauss and Newton, and the variance of the scale; `start` is where
     /// the lag began, s.
+    ///
+    /// # Law
+    /// H⁻¹ (Σ ψ(r)² j jᵀ + P) H⁻¹, with ψ Huber's function of a residual r, j its derivatives,
+    /// H = Σ ψ′(r) j jᵀ + P, and P the precision before the measurement.
     fn step(&self, rows: &Whitened, start: f64) -> (Vector2<f64>, f64) {
-        let spread = deviation_about_zero(&mut rows.residual.clone()).unwrap_or(1.0);
-        let spread = spread.max(f64::MIN_POSITIVE);
+        let spread = deviation_about_zero(&mut of_turns(&rows.residual, &rows.by[0]));
+        let spread = spread.unwrap_or(1.0).max(f64::MIN_POSITIVE);
         let priors = Vector2::new(SCALE_PRIOR, LAG_PRIOR).map(|deviation| deviation.powi(-2));
         let from = Vector2::new(1.0 - self.scale, start - self.lag);
         let mut matrix = Matrix2::from_diagonal(&priors);
         let mut right = priors.component_mul(&from);
+        let (mut curvature, mut scatter) = (matrix, matrix);
         for (k, residual) in rows.residual.iter().enumerate() {
             let by = Vector2::new(rows.by[0][k], rows.by[1][k]) / spread;
             let residual = residual / spread;
             let weight = Loss::Huber.weight(residual);
             matrix += weight * by * by.transpose();
             right += weight * residual * by;
+            curvature += Loss::Huber.curvature(residual) * by * by.transpose();
+            scatter += (weight * residual).powi(2) * by * by.transpose();
         }
         let inverse = matrix.try_inverse().unwrap_or(Matrix2::zeros());
-        (inverse * right, inverse[(0, 0)])
+        let bread = curvature.try_inverse().unwrap_or(Matrix2::zeros());
+        (inverse * right, (bread * scatter * bread)[(0, 0)])
     }
+}
+
+/// The values at turns: those at rest, which a derivative next to none marks, scatter by another
+/// noise. All of them without turns.
+fn of_turns(values: &[f64], by: &[f64]) -> Vec<f64> {
+    /// Least derivative of a turn, as share of their root mean square.
+    const MIN_DERIVATIVE: f64 = 0.3;
+    let square = by.iter().map(|by| by * by).sum::<f64>() / real(by.len().max(1));
+    let least = MIN_DERIVATIVE * square.sqrt();
+    let turns = values.iter().zip(by).filter(|(_, by)| by.abs() >= least);
+    turns.map(|(value, _)| *value).collect()
 }
 
 /// Huber's weights of values about their median size.

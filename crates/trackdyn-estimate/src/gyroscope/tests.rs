@@ -2,10 +2,11 @@
 
 use super::*;
 use crate::identification::{Options, icrs_alone};
-use crate::synthetic::{Synthetic, random_steps};
+use crate::synthetic::{Stretch, Synthetic, random_steps};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
+use trackdyn_core::PerSide;
 use trackdyn_recording::{ImuSample, PoseSample};
 
 const YAW_NOISE: f64 = 0.01;
@@ -244,4 +245,38 @@ fn yaw_between_rare_poses_is_that_of_the_gyroscope() {
         }
     }
     assert!(seen > 1000, "{seen}");
+}
+
+/// A robot that stands most of the time: poses at rest, ten times as good as on the way, must not
+/// pass for what a turn is known to.
+#[test]
+fn poses_at_rest_do_not_tell_how_well_the_scale_is_known() {
+    const DRIVES: u32 = 24;
+    let mut squares = 0.0;
+    for seed in 0..u64::from(DRIVES) {
+        let rest = Stretch { duration: 90.0, speeds: PerSide::new(0.0, 0.0) };
+        let schedule = |seed: u64| [vec![rest], random_steps(20, 2.0, 0.8, seed)].concat();
+        let drives = Synthetic {
+            schedules: vec![schedule(2 * seed), schedule(2 * seed + 1)],
+            yaw_noise: 0.001,
+            position_noise: 0.001,
+            seed,
+            ..Synthetic::default()
+        };
+        let recording = with_readings(&drives, 0.002, 1.0);
+        let mut random = ChaCha8Rng::seed_from_u64(seed + 11);
+        let runs = recording.runs().iter().cloned().map(|run| {
+            let mut rows = run.into_rows();
+            for sample in rows.poses.samples.iter_mut().filter(|sample| sample.t > rest.duration) {
+                let error: f64 = StandardNormal.sample(&mut random);
+                sample.pose.yaw += 0.01 * error;
+            }
+            Run::new(rows, &mut Vec::new())
+        });
+        let noisy = recording.with_runs(runs.collect());
+        let found = with_gyroscope(&noisy, 0.0).expect("it serves").gyroscope;
+        squares += ((found.scale - SCALE) / found.scale_deviation).powi(2) / f64::from(DRIVES);
+    }
+    // A mean square of 24 normal deviates lies below 1.9 but once in a hundred times.
+    assert!(squares < 1.9, "errors over deviations: {squares}");
 }

@@ -2,7 +2,7 @@
 
 use trackdyn_core::robust::usual_interval;
 use trackdyn_recording::Run;
-use trackdyn_recording::recording::MIN_GAP_RATIO;
+use trackdyn_recording::recording::longest_interval;
 
 /// Fewest readings in a row.
 const MIN_READINGS: usize = 8;
@@ -19,7 +19,7 @@ impl Turned {
     /// The readings of a run, between its gaps.
     pub(super) fn of_run(run: &Run) -> Vec<Self> {
         let readings = run.imu();
-        let longest = MIN_GAP_RATIO * usual_interval(readings.iter().map(|reading| reading.t));
+        let longest = longest_interval(usual_interval(readings.iter().map(|reading| reading.t)));
         let rows = readings.chunk_by(|a, b| b.t - a.t <= longest);
         let long = rows.filter(|row| row.len() >= MIN_READINGS);
         long.map(|row| {

@@ -5,7 +5,7 @@ use super::{Component, Method, PoseNoise};
 use crate::gaps::Gaps;
 use nalgebra::Vector3;
 use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, median};
-use trackdyn_core::{PerSide, Pose, Side, real};
+use trackdyn_core::{PerSide, Side, real};
 use trackdyn_recording::hold::travelled;
 use trackdyn_recording::{PoseSample, Recording, Run};
 
@@ -16,7 +16,7 @@ const STEPS: [usize; 4] = [1, 2, 4, 8];
 const MAX_DURATION: f64 = 2.5;
 
 /// Largest turn between two poses of a triple, rad: the propagation of noise through
-/// [`body_velocity`] is that of small turns.
+/// [`Pose::log`] is that of small turns.
 const MAX_TURN: f64 = 1.0;
 
 /// Smallest number of triples for an estimate.
@@ -37,8 +37,8 @@ struct Group {
 impl Group {
     fn add(&mut self, [a, b, c]: [&PoseSample; 3], is_clean: bool) {
         let (t_1, t_2) = (b.t - a.t, c.t - b.t);
-        let first = Vector3::from(body_velocity(&a.pose.relative(&b.pose), t_1));
-        let second = Vector3::from(body_velocity(&b.pose.relative(&c.pose), t_2));
+        let first = Vector3::from(a.pose.relative(&b.pose).log(t_1).to_array());
+        let second = Vector3::from(b.pose.relative(&c.pose).log(t_2).to_array());
         let lever = t_1 * t_2 / (t_1 + t_2);
         let lambda = t_1 / (t_1 + t_2);
         self.triples.push(Triple {
@@ -60,26 +60,14 @@ impl Group {
     }
 }
 
-/// Body velocity of the constant twist that makes a motion: the inverse of [`Pose::exp`].
-fn body_velocity(motion: &Pose, duration: f64) -> [f64; 3] {
-    let angle = motion.yaw;
-    let (s, c) = if angle.abs() < 1e-4 {
-        (1.0 - angle * angle / 6.0, angle / 2.0)
-    } else {
-        (angle.sin() / angle, (1.0 - angle.cos()) / angle)
-    };
-    let scale = duration * (s * s + c * c);
-    [(s * motion.x + c * motion.y) / scale, (s * motion.y - c * motion.x) / scale, angle / duration]
-}
-
-/// Pose noise while the encoders of both sides show zero.
-pub(super) fn standing(recording: &Recording) -> Option<PoseNoise> {
+/// Pose noise while the encoders of both sides show zero; `tau` is the clock offset of the poses, s.
+pub(super) fn standing(recording: &Recording, tau: f64) -> Option<PoseNoise> {
     let mut groups: [Group; 4] = Default::default();
     for run in recording.runs() {
         for [from, until] in still(run) {
             let poses = run.poses();
-            let first = poses.partition_point(|sample| sample.t < from);
-            let after = poses.partition_point(|sample| sample.t <= until);
+            let first = poses.partition_point(|sample| sample.t - tau < from);
+            let after = poses.partition_point(|sample| sample.t - tau <= until);
             gather(poses.get(first..after).unwrap_or_default(), &mut groups, |_| true);
         }
     }

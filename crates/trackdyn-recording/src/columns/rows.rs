@@ -50,13 +50,12 @@ pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Re
     let runs = rows(table, columns, scales, options.gyro_in_degrees)?;
     let mut warnings = Vec::new();
     let mut runs = divide(runs, &mut warnings);
-    turn_sensor(&mut runs, options.pose_axes, options.mount_yaw);
     let gyroscope = columns.columns.get(&Key::Gyro);
     if let Some(gyroscope) = gyroscope.filter(|_| !columns.has_poses()) {
         runs.iter_mut().for_each(turn_by_gyroscope);
-        let taken = format!("the yaw of the gyroscope in {}, without positions", gyroscope.name);
-        warnings.push(Warning::Chosen { what: "poses", taken });
+        warnings.push(Warning::YawOfGyroscope { gyroscope: gyroscope.name.clone() });
     }
+    turn_sensor(&mut runs, options.pose_axes, options.mount_yaw);
     for run in &mut runs {
         warnings.extend(thin_out(&mut run.poses.samples));
     }

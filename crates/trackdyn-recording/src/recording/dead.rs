@@ -262,22 +262,30 @@ fn cut(poses: &[PoseSample]) -> Vec<Piece> {
 fn mend(run: &mut Run, dead: &[&Equal]) {
     let times: Vec<f64> = run.tracks().iter().map(|reading| reading.t).collect();
     let longest = MIN_GAP_RATIO * usual_interval(times.iter().copied());
-    let is_short = |equal: &Equal| equal.time[1] - equal.time[0] < longest;
-    for equal in dead.iter().filter(|equal| is_short(equal)) {
+    let (short, long): (Vec<&Equal>, Vec<&Equal>) =
+        dead.iter().partition(|equal| equal.time[1] - equal.time[0] < longest);
+    for side in Side::BOTH {
+        let of_side = short.iter().filter(|equal| equal.side == side);
+        let rows: Vec<usize> = of_side.flat_map(|equal| equal.rows.clone()).collect();
+        if rows.is_empty() {
+            continue;
+        }
         let mut speeds: Vec<f64> =
-            run.tracks().iter().map(|reading| reading.speeds()[equal.side]).collect();
-        bridge(&times, &mut speeds, &equal.rows.clone().collect::<Vec<_>>());
-        for row in equal.rows.clone() {
+            run.tracks().iter().map(|reading| reading.speeds()[side]).collect();
+        bridge(&times, &mut speeds, &rows);
+        for row in rows {
             let reading = &mut run.readings_mut()[row];
-            match equal.side {
+            match side {
                 Side::Left => reading.v_left = speeds[row],
                 Side::Right => reading.v_right = speeds[row],
             }
         }
     }
-    let is_dropped =
-        |row: &usize| dead.iter().any(|equal| !is_short(equal) && equal.rows.contains(row));
-    let kept: Vec<usize> = (0..times.len()).filter(|row| !is_dropped(row)).collect();
+    let mut is_kept = vec![true; times.len()];
+    for equal in long {
+        is_kept[equal.rows.clone()].fill(false);
+    }
+    let kept: Vec<usize> = (0..times.len()).filter(|row| is_kept[*row]).collect();
     if kept.len() < times.len() {
         run.keep_readings(&kept);
     }

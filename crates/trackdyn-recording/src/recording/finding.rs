@@ -37,7 +37,7 @@ pub enum Finding {
     /// Stamps closer than a tenth of the median interval: both stay, but one of them is likely
     /// wrong.
     Crowded,
-    /// An interval of more than five times the median one.
+    /// An interval of more than five times the median one, and of 0.1 s.
     Gap {
         /// The longest, s.
         longest: f64,

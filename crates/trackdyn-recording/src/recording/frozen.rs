@@ -37,6 +37,10 @@ pub(super) fn leave_out(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
         for equal in poses.chunk_by(|a, b| a.pose == b.pose) {
             let rows = place..place + equal.len();
             place = rows.end;
+            if equal.len() == 1 {
+                kept.push(rows.start);
+                continue;
+            }
             let limit = allowed(equal, tracks, delay);
             let is_measured = |row: &usize| {
                 let way = largest(travelled(tracks, equal[0].t, poses[*row].t, delay));
@@ -70,7 +74,10 @@ fn long_repeats(run: &Run) -> Vec<[f64; 2]> {
 fn allowed(equal: &[PoseSample], tracks: &[TrackSample], delay: f64) -> f64 {
     let (start, end) = (equal[0].t, equal[equal.len() - 1].t);
     let stands = largest(travelled(tracks, start - 2.0 * DELAY_STEP, start, delay)) == 0.0;
-    let readings = tracks.iter().filter(|reading| (start - delay..end).contains(&reading.t));
+    // By the clock of the tracks the poses are measured a delay earlier, which is no exact number.
+    let (from, until) = (start - delay.max(0.0), end - delay.min(0.0));
+    let at = |time: f64| tracks.partition_point(|reading| reading.t < time);
+    let readings = tracks[at(from)..at(until)].iter();
     let fastest = readings.map(|reading| largest(reading.speeds())).fold(0.0, f64::max);
     if stands { MAX_STANDING_WAY + fastest * DELAY_STEP } else { MAX_STANDING_WAY }
 }

@@ -58,7 +58,7 @@ pub(crate) fn turn_sensor(runs: &mut [UncheckedRun], axes: PoseAxes, yaw: Option
     }
 }
 
-/// A continuous stretch of driving with its own pose frame, cleaned.
+/// A continuous stretch of driving, cleaned.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
     id: i64,
@@ -124,6 +124,11 @@ impl Run {
     /// This run with positions as well known as those of the run that it is a part of.
     pub(crate) fn with_positions_of(self, whole: &Self) -> Self {
         self.with_positions(whole.has_positions)
+    }
+
+    /// This run by another number.
+    pub(super) fn with_id(self, id: i64) -> Self {
+        Self { id, ..self }
     }
 
     /// This run, of whose positions it is known whether they were measured.

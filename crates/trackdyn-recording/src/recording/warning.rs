@@ -26,6 +26,10 @@ pub struct Course {
     pub scatter: f64,
 }
 
+/// Relative error of the scale of a gyroscope that nothing checks, 1: the standard deviation that
+/// data sheets of usual micromechanical ones imply. Fibre-optic ones are better by far.
+const GYROSCOPE_SCALE_DEVIATION: f64 = 0.01;
+
 /// Something the user should know about a recording that can be used all the same.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -188,6 +192,11 @@ pub enum Warning {
         /// How they agree.
         course: Course,
     },
+    /// Poses that are the yaw of a gyroscope alone.
+    YawOfGyroscope {
+        /// Its topic, column or file.
+        gyroscope: String,
+    },
     /// An IMU that is not mounted upright, whose yaw rates are those about the vertical.
     TurnedUpright {
         /// Its topic.
@@ -237,6 +246,16 @@ impl Warning {
             covered += run.imu().windows(2).map(within).sum::<f64>();
         }
         (covered > 0.0 && covered < MAX_COVERED * of).then_some(Self::ImuOfAPart { covered, of })
+    }
+
+    /// Relative error that all yaw of the recording shares by what it is made of, 1: a standard
+    /// deviation.
+    pub(super) fn yaw_scale_deviation(&self) -> Option<f64> {
+        match self {
+            Self::FromCourse { course, .. } => Some(course.scale_deviation),
+            Self::YawOfGyroscope { .. } => Some(GYROSCOPE_SCALE_DEVIATION),
+            _ => None,
+        }
     }
 }
 
@@ -322,6 +341,12 @@ impl fmt::Display for Warning {
                  with the yaw of {imu}, which has to count from east (REP-103)"
             ),
             Self::FromCourse { topic, imu, course } => from_course(f, topic, imu, course),
+            Self::YawOfGyroscope { gyroscope } => write!(
+                f,
+                "poses: took the yaw of the gyroscope {gyroscope}, without positions; its scale, \
+                 which nothing else here shows, is taken to be right to {:.0} %",
+                100.0 * GYROSCOPE_SCALE_DEVIATION
+            ),
             Self::TurnedUpright { topic, up: [x, y, z] } => write!(
                 f,
                 "{topic}: gravity points up along ({x:.2}, {y:.2}, {z:.2}) of its axes: yaw rates \

@@ -161,8 +161,7 @@ impl<'a> Collector<'a> {
                 (Vec::new(), String::new(), Some(chain.poses))
             }
             _ if self.poses.is_empty() && (is_free || is_gyroscope) && !imu.is_empty() => {
-                let taken = format!("the yaw of the gyroscope {imu_topic}, without positions");
-                warnings.push(Warning::Chosen { what: "poses", taken });
+                warnings.push(Warning::YawOfGyroscope { gyroscope: imu_topic.clone() });
                 (gyro::headings(&imu), imu_topic.clone(), None)
             }
             _ => {

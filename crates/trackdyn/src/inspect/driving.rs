@@ -134,7 +134,8 @@ impl Driving {
             turned_by_poses: 0.0,
             standing: runs.iter().map(|run| standing(run.tracks(), fastest)).sum(),
             has_noise: noise.moving.is_some() || noise.standing.is_some(),
-            separation: Separation::of_motions(&observations),
+            separation: Separation::of_motions(&observations)
+                .map(|found| found.with_yaw_scale(motion.yaw_scale_deviation())),
             travel_ratio: None,
             observations,
         };

@@ -4,7 +4,7 @@ use super::{Recording, Seen};
 use std::borrow::Cow;
 use trackdyn_estimate::gyroscope::Unfit;
 use trackdyn_estimate::{Clock, Gyroscope, with_gyroscope};
-use trackdyn_recording::Warning;
+use trackdyn_recording::Recording as Motion;
 
 impl Recording {
     /// This recording with the yaw of its poses corrected by its gyroscope, where it has one that
@@ -34,11 +34,8 @@ impl Recording {
     /// the gyroscope that corrects or makes them.
     pub(crate) fn yaw_scale(&self) -> f64 {
         let served = self.gyroscope().and_then(|found| found.as_ref().ok());
-        let made = self.warnings().iter().find_map(|warning| match warning {
-            Warning::FromCourse { course, .. } => Some(course.scale_deviation),
-            _ => None,
-        });
-        served.map_or(0.0, |found| found.scale_deviation).hypot(made.unwrap_or(0.0))
+        let made = self.motion().map_or(0.0, Motion::yaw_scale_deviation);
+        served.map_or(0.0, |found| found.scale_deviation).hypot(made)
     }
 
     /// What its gyroscope tells of the yaw of its poses, or why it does not serve; none where it

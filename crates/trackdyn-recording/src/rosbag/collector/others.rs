@@ -14,7 +14,7 @@ use crate::rosbag::payload::{Payload, PayloadError};
 use crate::rosbag::topic::{Layout, Topic, list};
 use crate::rosbag::{path, twist};
 use std::collections::BTreeMap;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
 
 /// Fewest changes of a pose of second choice that is no goal: fewer make no recording.
@@ -283,6 +283,9 @@ fn located(
     Ok(poses)
 }
 
+/// Difference from half a turn that is one, rad.
+const MAX_HALF_TURN_ERROR: f64 = 0.01;
+
 /// Poses at the fixes of a topic, with the yaw of a gyroscope that is turned to their course.
 fn by_gyroscope(
     topic: &str,
@@ -307,7 +310,13 @@ fn by_gyroscope(
             )
         })?;
     warnings.extend(told);
-    let poses = taken(topic, imu, (found, left_out), is_ned, warnings)?;
+    let mut poses = taken(topic, imu, (found, left_out), is_ned, warnings)?;
+    // The course tells where the robot looks, whatever the mount of the gyroscope, which is taken
+    // off every pose later. Half a turn says that the robot drove backwards.
+    let mount = options.mount_yaw.filter(|mount| (mount.abs() - PI).abs() > MAX_HALF_TURN_ERROR);
+    for pose in &mut poses {
+        pose.value[2] += mount.unwrap_or_default();
+    }
     let (topic, imu) = (topic.to_owned(), imu.to_owned());
     warnings.push(Warning::FromCourse { topic, imu, course });
     Ok(poses)

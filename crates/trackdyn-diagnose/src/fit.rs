@@ -200,6 +200,9 @@ impl Fit {
         let mut fit = Self::linearised(start, unknowns, evidence);
         for _ in 0..evidence.settings().fit.max_restarts {
             let end = fit.clone().descended(evidence);
+            if !end.mechanics.has_departure() {
+                return end;
+            }
             let anew = |hypothesis: Hypothesis| {
                 Point::new(hypothesis, unknowns, evidence, Some(&end.mechanics))
             };

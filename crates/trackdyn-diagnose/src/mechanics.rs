@@ -53,6 +53,8 @@ const TASK: usize = 64;
 #[derive(Clone)]
 pub struct Mechanics {
     surface: Surface,
+    /// Encoder readings of each run.
+    tracks: Arc<[Vec<TrackSample>]>,
     /// Stationary motion at each reading of each run, for belts that follow the encoders by
     /// `drive`.
     steady: Arc<Vec<Vec<Steady>>>,
@@ -262,12 +264,21 @@ impl Mechanics {
         let model = coarse(vehicle, constant.iter().cloned().collect());
         let resembling = before.map(|before| &before.surface);
         let surface = Surface::new(&model, largest, settings.speed_range, resembling);
-        let steady = Arc::new(steady(&surface, &drive, evidence.tracks()));
+        let tracks = Arc::clone(evidence.tracks());
+        let same = before.filter(|before| {
+            before.surface.is(&surface)
+                && before.drive == drive
+                && Arc::ptr_eq(&before.tracks, &tracks)
+        });
+        let steady = match same {
+            Some(same) => Arc::clone(&same.steady),
+            None => Arc::new(steady(&surface, &drive, &tracks)),
+        };
         let shear: Effects =
             constant.iter().filter(|effect| effect.card().shears()).cloned().collect();
         let simple = Arc::new(coarse(vehicle, without_shear(&constant)));
         let in_time = InTime::Stationary;
-        let still = Self { surface, steady, drive, ground: None, in_time, simple, shear };
+        let still = Self { surface, tracks, steady, drive, ground: None, in_time, simple, shear };
         // An impossible hypothesis needs no departures, which cost most where no forces balance.
         if let Some(reason) = unbalanced(&still.surface, settings.max_unsolved_share) {
             return Self { in_time: InTime::Impossible(reason), ..still };
@@ -303,7 +314,7 @@ impl Mechanics {
             return InTime::Stationary;
         }
         let (largest, starts) = (largest(evidence), hypothesis.starts_in(evidence));
-        let case = Case { vehicle, model: simple, largest, drive, starts, evidence };
+        let case = Case { vehicle, model: simple, surface, largest, drive, starts, evidence };
         let known = before.and_then(|before| before.in_time.inertia());
         match (inertia(inert, &case), known) {
             (Ok(inertia), _) => {
@@ -317,6 +328,11 @@ impl Mechanics {
             (Err(_), Some(known)) => InTime::OfAnother(known.unmoved()),
             (Err(reason), None) => InTime::Impossible(reason),
         }
+    }
+
+    /// Whether it departs in time from the stationary motion.
+    pub fn has_departure(&self) -> bool {
+        self.in_time.inertia().is_some()
     }
 
     /// Whether both inertial departures come from one transient simulation, and their changes by

@@ -4,8 +4,9 @@
 //! readings.
 //!
 //! The table holds the twist minus the mean belt speed, divided by the difference of the belt
-//! speeds: this stays finite where one track holds the robot and the other ICR is at infinity. With
-//! belts that slip on their sprockets, a load along the tracks costs speed even without a
+//! speeds: this stays finite where one track holds the robot and the other ICR is at infinity.
+//! Where friction depends on slip speed, it holds the change of that by the laws of the shear
+//! stress, beside a table of the motion without them. With belts that slip on their sprockets, a load along the tracks costs speed even without a
 //! difference: then it is divided by the norm of the speeds.
 
 mod table;
@@ -15,19 +16,46 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use table::{Grid, Table};
 use trackdyn_core::{PerSide, Side, Twist, real};
+use trackdyn_model::contact::Resolution;
 use trackdyn_model::sectors::Spacing;
-use trackdyn_model::{Circumstance, Model};
+use trackdyn_model::{Circumstance, Effects, Model, Vehicle};
 use trackdyn_model::{Icrs, Near, Stationary, Status};
 
 /// A table of stationary motions.
 #[derive(Clone, Debug)]
-pub struct Surface {
-    /// (v_x, v_y − V̄, w) divided by the scale.
+pub struct Surface(Arc<Tabulated>);
+
+/// What a table holds.
+#[derive(Debug)]
+struct Tabulated {
+    robot: Robot,
+    /// (v_x, v_y − V̄, w) divided by the scale; with `plain`, what is added to that.
     beyond: Table,
+    /// The motion without laws of the shear stress, on nodes of its own.
+    plain: Option<Plain>,
     scale: Scale,
     /// Start of the solve at each node, for a similar model.
-    starts: Arc<Vec<Option<Near>>>,
+    starts: Vec<Option<Near>>,
     unsolved: usize,
+}
+
+/// What a table is of.
+#[derive(Debug, PartialEq)]
+struct Robot {
+    vehicle: Vehicle,
+    effects: Effects,
+    resolution: Resolution,
+    largest: f64,
+    range: f64,
+}
+
+/// A motion to which a table adds the change by laws of the shear stress: its error is a share of
+/// that change, and none where the laws have no size.
+#[derive(Debug)]
+struct Plain {
+    surface: Surface,
+    /// Its twist, divided by the scale, at the nodes of the changes.
+    nodes: Arc<Vec<Option<Vector3<f64>>>>,
 }
 
 /// Divisor of the tabulated twist.
@@ -53,52 +81,123 @@ impl Surface {
     /// `largest`, m/s.
     ///
     /// Where friction depends on slip speed, nodes are even in the logarithm of the speed over the
-    /// ratio `range`. `before` is the table of a similar model, from which solves start.
+    /// ratio `range`. `before` is the table of a similar model, from which solves start; that of
+    /// this very model is taken as it is.
     pub fn new(model: &Model, largest: f64, range: f64, before: Option<&Self>) -> Self {
-        let grid = Grid::new(largest, Spacing::of(model, range));
+        let robot = Robot::new(model, largest, range);
+        let mut known = [before, before.and_then(Self::plain)].into_iter().flatten();
+        if let Some(known) = known.find(|known| known.0.robot == robot) {
+            return known.clone();
+        }
+        let spacing = Spacing::of(model, range);
+        let grid = Grid::new(largest, spacing);
         let slips = model.drive().slip_per_traction != 0.0;
         let scale = if slips { Scale::Size } else { Scale::Difference };
-        let solver = Stationary::new(model, &Circumstance::default());
-        let (solved, starts): (Vec<Option<Vector3<f64>>>, _) = (0..Grid::NODES)
-            .into_par_iter()
-            .map(|index| {
-                let speeds = grid.speeds(index);
-                let near = before.and_then(|before| before.near(index, &grid));
-                let solution = solver.starting_at(near).solve(speeds);
-                let usable = !matches!(solution.status, Status::NotConverged | Status::Tips);
-                let node = usable.then(|| beyond(speeds, &solution.twist) / scale.of(speeds));
-                (node, solution.linearised.map(Near::Linearised))
-            })
-            .unzip();
-        let unsolved = solved.iter().filter(|node| node.is_none()).count();
-        Self { beyond: Table::new(grid, &solved), scale, starts: Arc::new(starts), unsolved }
+        let plain = spacing.range().map(|_| Plain::of(model, &robot, (&grid, scale), before));
+        let tabulated = Solved::of(model, (&grid, scale), before);
+        let added = |(index, node): (usize, &Option<Vector3<f64>>)| match &plain {
+            Some(plain) => Some((*node)? - plain.nodes[index]?),
+            None => *node,
+        };
+        let values: Vec<_> = tabulated.nodes.iter().enumerate().map(added).collect();
+        let unsolved = values.iter().filter(|node| node.is_none()).count();
+        let beyond = Table::new(grid, &values);
+        let starts = tabulated.starts;
+        Self(Arc::new(Tabulated { robot, beyond, plain, scale, starts, unsolved }))
     }
 
-    /// Start of the solve at a node of this grid.
+    /// The table of the same robot without laws of the shear stress, if this one is beside it.
+    fn plain(&self) -> Option<&Self> {
+        self.0.plain.as_ref().map(|plain| &plain.surface)
+    }
+
+    /// Whether both are one table.
+    pub fn is(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+
+    /// Start of the solve at a node of a grid.
     fn near(&self, index: usize, grid: &Grid) -> Option<Near> {
-        let known = self.starts[index].filter(|_| self.beyond.grid() == grid);
+        let known = self.0.starts[index].filter(|_| self.0.beyond.grid() == grid);
         known.or_else(|| self.motion(grid.speeds(index)).near())
     }
 
     /// Share of the nodes without a motion: the robot tips over, or the solve failed.
     pub fn unsolved(&self) -> f64 {
-        real(self.unsolved) / real(Grid::NODES)
+        real(self.0.unsolved) / real(Grid::NODES)
     }
 
     /// Stationary motion (paper's frame) at these belt speeds.
     pub fn motion(&self, speeds: PerSide<f64>) -> Steady {
         let (difference, mean) =
             (speeds.right - speeds.left, f64::midpoint(speeds.left, speeds.right));
-        if let Scale::Difference = self.scale {
+        if let Scale::Difference = self.0.scale {
             let is_straight = difference == 0.0;
-            let beyond = if is_straight { Vector3::zeros() } else { self.beyond.at(speeds) };
+            let beyond = if is_straight { Vector3::zeros() } else { self.beyond(speeds) };
             return Steady { mean, difference, beyond };
         }
-        let beyond = self.beyond.at(speeds) * self.scale.of(speeds);
+        let beyond = self.beyond(speeds) * self.0.scale.of(speeds);
         if difference == 0.0 {
             return Steady { mean: mean + beyond[1], difference, beyond: Vector3::zeros() };
         }
         Steady { mean, difference, beyond: beyond / difference }
+    }
+
+    /// (v_x, v_y − V̄, w) divided by the scale.
+    fn beyond(&self, speeds: PerSide<f64>) -> Vector3<f64> {
+        let own = self.0.beyond.at(speeds);
+        self.plain().map_or(own, |plain| plain.beyond(speeds) + own)
+    }
+}
+
+impl Robot {
+    fn new(model: &Model, largest: f64, range: f64) -> Self {
+        let (vehicle, effects) = (model.vehicle().clone(), model.effects().clone());
+        Self { vehicle, effects, resolution: model.resolution(), largest, range }
+    }
+}
+
+impl Plain {
+    /// The motion of a model without its laws of the shear stress, with its nodes on the grid of
+    /// these. `before` is the table of a similar model.
+    fn of(model: &Model, robot: &Robot, grid: (&Grid, Scale), before: Option<&Surface>) -> Self {
+        let plain = model.without_shear_laws();
+        let known = before.and_then(|before| before.0.plain.as_ref());
+        let resembling = known.map(|known| &known.surface).or(before);
+        let surface = Surface::new(&plain, robot.largest, robot.range, resembling);
+        let same = known.filter(|known| known.surface.is(&surface));
+        let same = same.filter(|_| before.is_some_and(|before| before.0.beyond.grid() == grid.0));
+        let nodes = match same {
+            Some(same) => Arc::clone(&same.nodes),
+            None => Arc::new(Solved::of(&plain, grid, Some(&surface)).nodes),
+        };
+        Self { surface, nodes }
+    }
+}
+
+/// Motions at the nodes of a grid.
+struct Solved {
+    /// (v_x, v_y − V̄, w) divided by the scale; none where there is no motion.
+    nodes: Vec<Option<Vector3<f64>>>,
+    /// Start of the solve at each node, for a similar model.
+    starts: Vec<Option<Near>>,
+}
+
+impl Solved {
+    fn of(model: &Model, (grid, scale): (&Grid, Scale), before: Option<&Surface>) -> Self {
+        let solver = Stationary::new(model, &Circumstance::default());
+        let (nodes, starts) = (0..Grid::NODES)
+            .into_par_iter()
+            .map(|index| {
+                let speeds = grid.speeds(index);
+                let near = before.and_then(|before| before.near(index, grid));
+                let solution = solver.starting_at(near).solve(speeds);
+                let usable = !matches!(solution.status, Status::NotConverged | Status::Tips);
+                let node = usable.then(|| beyond(speeds, &solution.twist) / scale.of(speeds));
+                (node, solution.linearised.map(Near::Linearised))
+            })
+            .unzip();
+        Self { nodes, starts }
     }
 }
 
@@ -154,8 +253,8 @@ fn moved(twist: Vector3<f64>, [left, right, y]: &[f64; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trackdyn_model::contact::{Friction, Resolution};
-    use trackdyn_model::{Effects, RunningGear, VehicleFile};
+    use trackdyn_model::contact::Friction;
+    use trackdyn_model::{RunningGear, VehicleFile};
 
     /// Speed ratio of a logarithmic table.
     const RANGE: f64 = 30.0;
@@ -264,10 +363,13 @@ mod tests {
             let there = model([-0.02, 0.03]);
             let [anew, beside] =
                 [None, Some(&before)].map(|before| Surface::new(&there, 1.5, RANGE, before));
-            let nodes = anew.beyond.nodes().iter().zip(beside.beyond.nodes());
+            let nodes = anew.0.beyond.nodes().iter().zip(beside.0.beyond.nodes());
             let off = nodes.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
-            println!("{id}: {off:.1e}, {} and {}", anew.unsolved, beside.unsolved);
-            assert!(off < MAX_DIFFERENCE && anew.unsolved == beside.unsolved, "{id}: {off:.1e}");
+            println!("{id}: {off:.1e}, {} and {}", anew.0.unsolved, beside.0.unsolved);
+            assert!(
+                off < MAX_DIFFERENCE && anew.unsolved() == beside.unsolved(),
+                "{id}: {off:.1e}"
+            );
         }
     }
 

@@ -105,6 +105,14 @@ impl Model {
         Self { resolution, ..self }
     }
 
+    /// The model without its laws of the shear stress.
+    pub fn without_shear_laws(&self) -> Self {
+        let others = self.effects.iter().filter(|effect| !effect.card().shears());
+        let effects = others.cloned().collect();
+        let (shear_laws, custom_laws) = (Effects::none(), Vec::new());
+        Self { effects, shear_laws, custom_laws, ..self.clone() }
+    }
+
     /// Resolution of the shear-stress quadrature.
     pub fn resolution(&self) -> Resolution {
         self.resolution

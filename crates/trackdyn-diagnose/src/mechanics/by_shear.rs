@@ -184,11 +184,12 @@ mod tests {
         Hypothesis::filed(&file, &settings::Prior::default())
     }
 
-    /// Ten seconds of changing track speeds.
-    fn driven(hypothesis: &Hypothesis) -> Evidence {
+    /// Ten seconds of changing track speeds, so many times some 0.6 m/s.
+    fn driven(hypothesis: &Hypothesis, times: f64) -> Evidence {
         let tracks = (0..=37 * READINGS).map(|k| {
             let t = 0.03 * real(k);
             let (v_left, v_right) = (0.6 * (1.3 * t).sin(), 0.5 * (2.1 * t).cos());
+            let (v_left, v_right) = (times * v_left, times * v_right);
             TrackSample { t, v_left, v_right }
         });
         let blocks = vec![0];
@@ -209,6 +210,24 @@ mod tests {
         squares.sum::<f64>().sqrt()
     }
 
+    /// A law at no size is none, where centripetal force is large as well.
+    #[test]
+    fn a_law_without_size_changes_nothing() {
+        for law in ["stribeck-friction:excess=0", "viscous-friction:growth_s_per_m=0"] {
+            let with = robot(law);
+            let shears = |effect: &&ActiveEffect| effect.card().shears();
+            let effects = with.effects.iter().filter(|effect| !shears(effect)).cloned().collect();
+            let without = Hypothesis { effects, ..with.clone() };
+            let evidence = driven(&without, 2.0);
+            let predicted = |of: &Hypothesis| {
+                Mechanics::new(of, &evidence).predict(&Instruments::of(of), &evidence)
+            };
+            let pairs = predicted(&with).into_iter().zip(predicted(&without));
+            let off = pairs.map(|(with, without)| (with - without).norm()).fold(0.0, f64::max);
+            assert!(off < 1e-6, "{law}: {off:.2e} m or rad");
+        }
+    }
+
     /// Near the laws for which it was found, a change is linear in their numbers, and far from them
     /// it is found anew.
     #[test]
@@ -226,7 +245,7 @@ mod tests {
             ),
         ] {
             let hypothesis = robot(law);
-            let evidence = driven(&hypothesis);
+            let evidence = driven(&hypothesis, 1.0);
             let free: Vec<Unknown> =
                 hypothesis.effects.iter().flat_map(|law| unknowns_of(law.effect())).collect();
             let here = Mechanics::new(&hypothesis, &evidence);

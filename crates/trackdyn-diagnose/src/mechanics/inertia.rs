@@ -151,12 +151,8 @@ impl InertiaNear {
     /// Change of the departure by shear-stress laws, at each reading, at the simulated parameters.
     /// `with` is the table of stationary motions with the laws, `case` the robot without.
     pub fn sheared(&self, laws: &Effects, with: &Surface, case: &Case) -> Vec<Vec<Twist>> {
-        let without = Surface::new(
-            case.model,
-            case.largest,
-            case.settings().speed_range,
-            Some(&self.at.surface),
-        );
+        let range = case.settings().speed_range;
+        let without = Surface::new(case.model, case.largest, range, Some(with));
         self.at.sheared(laws, [with, &without])
     }
 

@@ -62,6 +62,8 @@ pub struct Case<'a> {
     pub vehicle: &'a Vehicle,
     /// The vehicle with effects, inertia among them.
     pub model: &'a Model,
+    /// Stationary motions of the vehicle, with laws of the shear stress.
+    pub surface: &'a Surface,
     /// Largest speed of a belt, m/s.
     pub largest: f64,
     pub drive: &'a Drive,
@@ -132,7 +134,7 @@ impl Inertia {
     pub fn new(inert: Vec<ActiveEffect>, case: &Case) -> Result<Self, String> {
         let Case { model, largest, drive, starts, evidence, .. } = *case;
         let settings = case.settings().clone();
-        let surface = Surface::new(model, largest, settings.speed_range, None);
+        let surface = Surface::new(model, largest, settings.speed_range, Some(case.surface));
         let gained = |reading: &TrackSample| {
             let PerSide { left, right } = drive.driven(reading.speeds(), reading.t);
             TrackSample { t: reading.t, v_left: left, v_right: right }

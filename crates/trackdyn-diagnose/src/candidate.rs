@@ -162,6 +162,10 @@ pub fn variants(effect: EffectId, evidence: &Evidence) -> Vec<Variant> {
             })
             .collect();
     }
+    // What begins at a time ends later.
+    let is_time = |place: &usize| parameters[*place].role == Role::Time;
+    let times: Vec<usize> = (0..parameters.len()).filter(is_time).collect();
+    all.retain(|values| times.is_sorted_by(|a, b| values[*a] < values[*b]));
     let all = all.into_iter().flat_map(|values| places::of_extent(card, values, evidence));
     all.map(|values| Variant { effect, values }).collect()
 }

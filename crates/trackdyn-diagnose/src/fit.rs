@@ -139,6 +139,11 @@ impl Point {
         Self::with_mechanics(hypothesis, mechanics, unknowns, evidence)
     }
 
+    /// Its mechanics.
+    pub fn mechanics(&self) -> &Mechanics {
+        &self.mechanics
+    }
+
     fn with_mechanics(
         hypothesis: Hypothesis,
         mechanics: Mechanics,

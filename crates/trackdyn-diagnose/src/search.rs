@@ -191,7 +191,8 @@ impl Search {
             }
             watch.go_on()?;
             let found = self.refit(beside, std::slice::from_ref(one));
-            kept = kept.max(found.ln_evidence - beside.ln_evidence);
+            // What a refit keeps beyond its own promise, no other promise can match.
+            kept = kept.max((found.ln_evidence - beside.ln_evidence).min(one.gain));
             refitted.push(found);
         }
         Ok(refitted)
@@ -238,13 +239,15 @@ impl Search {
             };
             let reduced: Vec<Found> =
                 best.effects.iter().map(without).collect::<Result<_, Cancelled>>()?;
-            for found in &reduced {
+            for (found, left_out) in reduced.iter().zip(&best.effects) {
                 let screened = self.screen(found);
+                let own = screened.iter().find(|one| one.effect == *left_out);
+                let promised = own.map_or(f64::INFINITY, |own| own.gain);
                 let others = screened
                     .into_iter()
                     .filter(|one| one.gain > 0.0 && !best.effects.contains(&one.effect))
                     .filter(|one| !self.is_as_filed(one));
-                let missed = best.ln_evidence - found.ln_evidence;
+                let missed = (best.ln_evidence - found.ln_evidence).min(promised);
                 let least = settings.min_relative_gain * missed - worth;
                 let others = others.filter(|one| one.gain > least);
                 for one in others.take(settings.max_refitted_exchanges) {

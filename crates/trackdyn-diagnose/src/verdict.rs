@@ -73,6 +73,9 @@ pub fn judge(basis: &Basis, best: &Found, effects: &[EffectId]) -> Result<Vec<Ve
     // mimic a law outside their class, which breaks symmetries that constants keep.
     let by_constants = LazyCell::new(|| constants::departure(search, best, constants, file));
     let of = |effect: EffectId| {
+        if let Some(weak) = weak(search, best, effect) {
+            return Ok(weak);
+        }
         let rivals = Rivals::new(search, best, constants, effect, watch)?;
         let (one_of, stable) = rivals.answer(search, best, resampling);
         let support = rivals.support(search, best, &one_of, stable, resampling);
@@ -98,6 +101,26 @@ pub fn judge(basis: &Basis, best: &Found, effects: &[EffectId]) -> Result<Vec<Ve
         Ok(Verdict { effect, one_of, found, support, refused })
     };
     effects.iter().copied().map(of).collect()
+}
+
+/// Refuses an effect that gains too little against none: against its rivals it gains no more. None
+/// where it gains enough.
+fn weak(search: &Search, best: &Found, effect: EffectId) -> Option<Verdict> {
+    let without = search.without(best, effect);
+    let support = Support {
+        ln_bayes_factor: best.ln_evidence - without.ln_evidence,
+        z: (without.fit.objective - best.fit.objective).max(0.0).sqrt(),
+        ..Support::none()
+    };
+    let needed = search.settings().verdict.min_ln_bayes_factor;
+    let Support { ln_bayes_factor, .. } = support;
+    (ln_bayes_factor < needed).then(|| Verdict {
+        effect,
+        one_of: vec![effect],
+        found: best.fit.hypothesis.effect(effect).cloned(),
+        support,
+        refused: Some(Refusal::Weak { ln_bayes_factor, needed }),
+    })
 }
 
 /// Refusal by the statistical rules; none where all are met. `whole` is the √ of the decrease of

@@ -37,6 +37,8 @@ pub enum Step {
     Add(Vec<(usize, Vec<f64>)>),
     /// Leaves out an effect.
     Leave(EffectId),
+    /// Adds all effects of inertia.
+    Newton,
 }
 
 impl Key {

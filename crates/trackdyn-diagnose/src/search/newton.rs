@@ -4,6 +4,7 @@
 //! inertia: each alone may hide in a minimum far from the whole. So both are tried together, at
 //! levels of that one ratio over two decades, with the clock of the present fit and with none.
 
+use super::done::{Key, Step};
 use super::{Found, Search};
 use crate::base::without_clock;
 use crate::fit::{Fit, Point};
@@ -33,21 +34,26 @@ impl Search {
             vec![hypothesis.clone(), without_clock(hypothesis, &self.base.as_filed.hypothesis)];
         clocks.dedup();
         let levels = &self.settings().search.newton_levels;
-        let starts =
-            clocks.iter().flat_map(|clock| levels.iter().map(|&l| at(clock, &inertial, l)));
         let mut best: Option<Point> = None;
-        for start in starts {
-            watch.go_on()?;
-            let point = Point::new(start, &unknowns, &self.evidence, Some(&beside.fit.mechanics));
-            let most = best.as_ref().map_or(f64::INFINITY, |best| best.objective);
-            if point.objective < most {
-                best = Some(point);
+        for &level in levels {
+            let mut before = beside.fit.mechanics.clone();
+            for clock in &clocks {
+                watch.go_on()?;
+                let start = at(clock, &inertial, level);
+                let point = Point::new(start, &unknowns, &self.evidence, Some(&before));
+                // A clock of the poses moves nothing.
+                before = point.mechanics().clone();
+                let most = best.as_ref().map_or(f64::INFINITY, |best| best.objective);
+                if point.objective < most {
+                    best = Some(point);
+                }
             }
         }
         let Some(best) = best else { return Ok(None) };
         watch.go_on()?;
         let fit = Fit::from_point(best, &unknowns, &self.evidence);
-        Ok(Some(self.recalibrated(effects, fit)))
+        let found = self.recalibrated(effects, fit);
+        Ok(Some(self.done.or_else(Key::step(beside, Step::Newton), || found)))
     }
 }
 

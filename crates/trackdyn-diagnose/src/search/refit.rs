@@ -9,16 +9,31 @@ use crate::prior::prior;
 use trackdyn_model::EffectId;
 
 impl Search {
-    /// Refits the hypothesis with more effects: from where an earlier search left them, unless that
-    /// is worse than without them.
+    /// Refits the hypothesis with more effects: from where an earlier search left them, as long as
+    /// that keeps what they promise now.
     pub fn refit(&self, beside: &Found, more: &[Screened]) -> Found {
         let added: Vec<EffectId> = more.iter().map(|one| one.effect).collect();
         let (effects, _) = beside.extended(&added);
-        if let Some(found) = self.again(&effects).filter(|found| !self.is_worse(found, beside)) {
-            return found;
+        let earlier = self.again(&effects);
+        let serves = |found: &Found| {
+            !self.is_worse(found, beside) && self.keeps_promise(found, beside, promised(more))
+        };
+        if let Some(found) = earlier.as_ref().filter(|found| serves(found)) {
+            return found.clone();
         }
         let added = more.iter().map(|one| (one.entry, one.sizes.clone())).collect();
-        self.done.or_else(Key::step(beside, Step::Add(added)), || self.refitted(beside, more))
+        let anew = || self.refitted(beside, more);
+        let anew = self.done.or_else(Key::step(beside, Step::Add(added)), anew);
+        earlier.into_iter().fold(anew, |anew, earlier| {
+            if earlier.ln_evidence > anew.ln_evidence { earlier } else { anew }
+        })
+    }
+
+    /// Whether a hypothesis with more effects keeps enough of the ln evidence that these promised.
+    fn keeps_promise(&self, found: &Found, beside: &Found, promised: f64) -> bool {
+        let settings = &self.settings().search;
+        let kept = found.ln_evidence - beside.ln_evidence;
+        promised < settings.min_ln_evidence || kept > settings.min_kept_share * promised
     }
 
     /// The hypothesis with these effects, refitted from where an earlier search left it; none where
@@ -52,7 +67,6 @@ impl Search {
         // from it. If the point explains less than no effect, or the fit keeps little of the
         // promised gain, a start at smaller sizes is tried too: either may lie beyond a crest of
         // the objective.
-        let promised = more.iter().map(|one| one.gain).fold(0.0, f64::max);
         // More effects at no size are the hypothesis without them: no fit need end worse.
         let no_worse = |found: Found| {
             if !self.is_worse(&found, beside) {
@@ -65,8 +79,7 @@ impl Search {
         let mut far = Some(start(1.0));
         let is_less = |far: &mut Point| far.objective < beside.fit.objective;
         let found = fitted(far.take_if(is_less).unwrap_or_else(|| start(settings.near_start)));
-        let is_kept = kept(&found) > settings.min_kept_share * promised;
-        if promised < settings.min_ln_evidence || is_kept {
+        if self.keeps_promise(&found, beside, promised(more)) {
             return no_worse(found);
         }
         let second = far.unwrap_or_else(|| start(settings.near_start));
@@ -165,14 +178,18 @@ impl Search {
     pub fn without(&self, found: &Found, effect: EffectId) -> Found {
         let others = found.effects.iter().copied().filter(|other| *other != effect);
         let others: Vec<EffectId> = others.collect();
-        self.again(&others).unwrap_or_else(|| {
+        let is_base = others.is_empty();
+        let without = self.again(&others).unwrap_or_else(|| {
             let left_out = || self.left_out(found, effect, others);
             self.done.or_else(Key::step(found, Step::Leave(effect)), left_out)
-        })
+        });
+        // The base itself, but for rounding: its refits are known.
+        let lower = self.base.fit.objective - without.fit.objective;
+        let is_same = lower <= self.settings().search.max_rise_of_nested;
+        if is_base && is_same { self.nothing() } else { without }
     }
 
     fn left_out(&self, found: &Found, effect: EffectId, effects: Vec<EffectId>) -> Found {
-        let is_base = effects.is_empty();
         let hypothesis = found.fit.hypothesis.with_effect_of(&self.base.fit.hypothesis, effect);
         let unknowns = found.fit.unknowns_without(effect);
         let before = Some(&self.base.fit.mechanics);
@@ -180,8 +197,11 @@ impl Search {
         let without = self.recalibrated(effects, fit);
         let rise = without.fit.objective / found.fit.objective - 1.0;
         let may_be_near = rise < self.settings().search.max_rise_by_starts;
-        let without = if may_be_near { self.with_own_starts(without) } else { without };
-        let is_further = self.base.fit.objective <= without.fit.objective;
-        if is_base && is_further { self.nothing() } else { without }
+        if may_be_near { self.with_own_starts(without) } else { without }
     }
+}
+
+/// Largest gain of ln evidence that the screen promised of these.
+fn promised(more: &[Screened]) -> f64 {
+    more.iter().map(|one| one.gain).fold(0.0, f64::max)
 }

@@ -1,14 +1,14 @@
 //! Verdicts on encoders and pose sensor that differ from the vehicle file.
 
 use super::rivals::is_rival;
-use super::{Basis, Support, Verdict, refusal};
+use super::support::change;
+use super::{Basis, Support, Verdict, refusal, within_filed};
 use crate::fit::Fit;
-use crate::hypothesis::{Hypothesis, Unknown, typical};
-use crate::mechanics::is_instrument;
+use crate::hypothesis::Hypothesis;
 use crate::progress::Cancelled;
 use crate::search::{Found, Screened, Search};
 use crate::settings::Settings;
-use std::cell::LazyCell;
+use nalgebra::DVector;
 use trackdyn_model::EffectId;
 
 /// Judges the instrument effects, which are free in every hypothesis.
@@ -20,13 +20,10 @@ pub fn judge_instruments(basis: &Basis, best: &Found) -> Result<Vec<Verdict>, Ca
     let filed = &search.base.as_filed.hypothesis;
     let Settings { verdict: rules, answer, .. } = search.settings();
     let mut verdicts = Vec::new();
-    // The form error of any law, filed or found, may look like a sensor error.
-    let laws = LazyCell::new(|| {
-        let more = without_laws(search, best).objective - best.fit.objective;
-        // Without laws that keep this robot on the ground there is no motion to compare with.
-        if more.is_finite() { more.max(0.0).sqrt() } else { 0.0 }
-    });
     for &effect in &search.base.instruments {
+        if is_negligible(best, filed, effect, rules.min_ln_bayes_factor) {
+            continue;
+        }
         watch.go_on()?;
         let dropped = without_instrument(search, best, effect);
         let ln_bayes_factor = best.ln_evidence - dropped.ln_evidence;
@@ -65,7 +62,10 @@ pub fn judge_instruments(basis: &Basis, best: &Found) -> Result<Vec<Verdict>, Ca
             z,
             ..Support::of_columns(search, best, &columns, &parts, resampling)
         };
-        let refused = refusal(&support, *laws, rules);
+        // The forms of laws that were found stand in the evidence; those of the file may be wrong
+        // by as much as laws are known.
+        let of_filed_laws = || within_filed(search, &dropped, &change(effect, &dropped, best)?);
+        let refused = refusal(&support, 0.0, rules).or_else(of_filed_laws);
         let found = fit.hypothesis.effect(effect).cloned();
         verdicts.push(Verdict { effect, one_of, found, support, refused });
     }
@@ -81,16 +81,23 @@ fn without_instrument(search: &Search, best: &Found, effect: EffectId) -> Found 
     search.with_own_starts(search.found(best.effects.clone(), fit))
 }
 
-/// The best hypothesis without any law of forces, refitted.
-fn without_laws(search: &Search, best: &Found) -> Fit {
-    let Fit { hypothesis, unknowns, .. } = &best.fit;
-    let vehicle = &hypothesis.vehicle;
-    let effects = hypothesis.effects.iter().filter(|effect| is_instrument(vehicle, effect));
-    let hypothesis = Hypothesis { effects: effects.cloned().collect(), ..hypothesis.clone() };
-    let is_left = |unknown: &Unknown| match unknown {
-        Unknown::Effect(effect, _) => is_instrument(vehicle, &typical(*effect)),
-        Unknown::Offset(_) | Unknown::FrictionLevel | Unknown::Cog(_) => true,
-    };
-    let unknowns: Vec<Unknown> = unknowns.iter().copied().filter(is_left).collect();
-    Fit::new(hypothesis, &unknowns, &search.evidence, Some(&best.fit.mechanics))
+/// Whether the fit itself says that an instrument effect as filed costs too little for a claim.
+///
+/// Its numbers are off by d, and lowering the others to their best costs dᵀ Σ⁻¹ d/2 of the log
+/// posterior, Σ their covariance. Half of a claim leaves room for what is not linear.
+fn is_negligible(best: &Found, filed: &Hypothesis, effect: EffectId, claim: f64) -> bool {
+    let fit = &best.fit;
+    let own = |&place: &usize| fit.unknowns[fit.free[place]].is_of(effect);
+    let places: Vec<usize> = (0..fit.free.len()).filter(own).collect();
+    if places.len() < fit.unknowns.iter().filter(|unknown| unknown.is_of(effect)).count() {
+        return false;
+    }
+    let off = places.iter().map(|&place| {
+        let unknown = fit.unknowns[fit.free[place]];
+        fit.hypothesis.get(unknown) - filed.get(unknown)
+    });
+    let off = DVector::from_iterator(places.len(), off);
+    let covariance = fit.solution.covariance.select_rows(&places).select_columns(&places);
+    let solved = covariance.cholesky().map(|factor| factor.solve(&off));
+    solved.is_some_and(|solved| off.dot(&solved) / 2.0 < claim / 2.0)
 }

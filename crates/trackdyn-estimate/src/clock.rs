@@ -81,8 +81,13 @@ pub enum Clock {
     Given(f64),
     /// Estimated from the recording.
     Estimated(ClockOffset),
-    /// Taken as zero, with the reason why the recording does not show it.
-    Unknown(String),
+    /// Taken as zero: the recording does not show it.
+    Unknown {
+        /// Why.
+        reason: String,
+        /// The best correlation of encoders and poses, where it is too small to tell.
+        correlation: Option<f64>,
+    },
 }
 
 impl Clock {
@@ -97,7 +102,13 @@ impl Clock {
             Some(tau) => Ok(Self::Given(tau)),
             None => match clock_offset(recording, &ClockSearch::default()) {
                 Ok(offset) => Ok(Self::Estimated(offset)),
-                Err(reason @ Error::NotEstimable { .. }) => Ok(Self::Unknown(reason.to_string())),
+                Err(reason @ Error::NotEstimable { .. }) => {
+                    Ok(Self::Unknown { reason: reason.to_string(), correlation: None })
+                }
+                Err(unlike @ Error::Unlike { correlation, .. }) => {
+                    let (reason, correlation) = (unlike.to_string(), Some(correlation));
+                    Ok(Self::Unknown { reason, correlation })
+                }
                 Err(reason) => Err(reason),
             },
         }
@@ -108,7 +119,7 @@ impl Clock {
         match self {
             Self::Given(tau) => *tau,
             Self::Estimated(offset) => offset.tau,
-            Self::Unknown(_) => 0.0,
+            Self::Unknown { .. } => 0.0,
         }
     }
 
@@ -116,14 +127,14 @@ impl Clock {
     pub fn standard_error(&self) -> Option<f64> {
         match self {
             Self::Estimated(offset) => Some(offset.standard_error),
-            Self::Given(_) | Self::Unknown(_) => None,
+            Self::Given(_) | Self::Unknown { .. } => None,
         }
     }
 
     /// Why τ could not be estimated, where it could not.
     pub fn reason(&self) -> Option<&str> {
         match self {
-            Self::Unknown(reason) => Some(reason),
+            Self::Unknown { reason, .. } => Some(reason),
             Self::Given(_) | Self::Estimated(_) => None,
         }
     }
@@ -133,7 +144,7 @@ impl Clock {
         match self {
             Self::Given(_) => "given",
             Self::Estimated(_) => "estimated",
-            Self::Unknown(_) => "not estimable",
+            Self::Unknown { .. } => "not estimable",
         }
     }
 }
@@ -314,10 +325,7 @@ pub fn clock_offset(recording: &Recording, search: &ClockSearch) -> Result<Clock
     })?;
     let Fit { correlation, count, .. } = fit;
     if correlation.abs() < MIN_CORRELATION {
-        return Err(refuse(format!(
-            "no turning that encoders and poses both show: their best correlation is \
-             {correlation:.2} over {count} pose intervals, {MIN_CORRELATION} needed"
-        )));
+        return Err(Error::Unlike { correlation, count, needed: MIN_CORRELATION });
     }
     if correlation < 0.0 {
         return Err(Error::Swapped { correlation, farthest: search.last });

@@ -48,6 +48,11 @@ const MAX_LN_UNLIKE: f64 = 0.1;
 /// may be wrong: slip, as on ice, varies by more.
 const MAX_SPREAD_OF_UNITS: f64 = 1.3;
 
+/// Part by which track speeds are off that tyres and pitches leave; and the ratio of residuals
+/// without and with factors that slip does not reach: on real robots it is 1.2 at most.
+const MIN_FACTOR: f64 = 0.03;
+const MIN_RATIO_BY_FACTORS: f64 = 2.0;
+
 /// Part of the turning that a fit leaves where it describes the drive.
 const MAX_TURNING_LEFT: f64 = 0.5;
 
@@ -98,6 +103,13 @@ pub enum Contradiction {
         /// Track speeds per speed of the poses, where both tracks and all of the drive say one, as
         /// a wrong unit does and slip does not.
         ratio: Option<f64>,
+    },
+    /// Factors on the track speeds explain what the fit leaves: no slip does so.
+    Factors {
+        /// α.
+        alphas: PerSide<f64>,
+        /// Size of the residuals without them over that with them.
+        ratio: f64,
     },
     /// The fit explains hardly any turning.
     Turning {
@@ -192,6 +204,20 @@ impl Contradiction {
             found.push(Self::Way { left: left.way, mount: shows.then_some(mount), during });
         }
         found
+    }
+
+    /// Whether track speeds that are off by a constant factor contradict a fit that takes them as
+    /// they are, beside the one `with` factors.
+    pub fn of_factors(fit: &Estimate, with: &Estimate) -> Option<Self> {
+        let ratio = fit.whitened_rms / with.whitened_rms;
+        let [.., l, r] = with.parameters.0;
+        let is_off = [3, 4].into_iter().any(|place| {
+            let interval = with.interval(place);
+            let is_beyond = |of: Interval| of.low > 1.0 + MIN_FACTOR || of.high < 1.0 - MIN_FACTOR;
+            interval.is_some_and(is_beyond)
+        });
+        let alphas = PerSide::new(l, r);
+        (is_off && ratio > MIN_RATIO_BY_FACTORS).then_some(Self::Factors { alphas, ratio })
     }
 
     /// What contradicts any distance of the ICRs for poses that follow in this way.

@@ -3,6 +3,9 @@
 use crate::parameters::Parameters;
 use crate::sensor::Nuisance;
 
+/// Largest standard deviation that is told: more says no more.
+const MAX_TOLD: f64 = 100.0;
+
 /// Why a recording does not determine a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -15,6 +18,11 @@ pub enum Doubt {
         deviation: f64,
         /// The largest that would do.
         limit: f64,
+    },
+    /// Poses and tracks do not turn alike.
+    Unlike {
+        /// Their best correlation, at any clock offset.
+        correlation: f64,
     },
     /// The interval of a property of the sensor is too wide to be of use.
     WideNuisance {
@@ -45,12 +53,23 @@ impl std::fmt::Display for Doubt {
             Self::Wide { parameter, deviation, limit } => {
                 let name = Parameters::NAMES[parameter];
                 let unit = if parameter < 3 { " m" } else { "" };
+                let by = if deviation < MAX_TOLD {
+                    format!("{deviation:.2}{unit}")
+                } else {
+                    format!("more than {MAX_TOLD}{unit}")
+                };
                 write!(
                     f,
-                    "{name} is open by {deviation:.2}{unit} (one standard deviation; \
-                     {limit:.2}{unit} would do): drive more turns of different kinds"
+                    "{name} is open by {by} (one standard deviation; {limit:.2}{unit} would do): \
+                     drive more turns of different kinds"
                 )
             }
+            Self::Unlike { correlation } => write!(
+                f,
+                "the poses do not turn as the tracks do (correlation {correlation:.2}): they may \
+                 be those of another robot, their yaw no heading, or what was taken for the tracks \
+                 something else: check topics, joints, columns and units"
+            ),
             Self::WideNuisance { nuisance, deviation } => {
                 let (limit, unit) = (nuisance.limit(), nuisance.unit());
                 write!(

@@ -94,6 +94,19 @@ pub enum Error {
         /// What is missing, with numbers.
         reason: String,
     },
+    /// Encoders and poses do not show the same turning.
+    #[error(
+        "the clock offset cannot be estimated: no turning that encoders and poses both show: their \
+         best correlation is {correlation:.2} over {count} pose intervals, {needed} needed"
+    )]
+    Unlike {
+        /// Their best correlation.
+        correlation: f64,
+        /// Pose intervals that were used.
+        count: usize,
+        /// The smallest that would do.
+        needed: f64,
+    },
     /// The clock offset lies beyond all that were tried.
     #[error(
         "the clocks of poses and tracks differ by {farthest} s or more: the best clock offset lies \
@@ -142,6 +155,7 @@ impl Error {
                 | Self::ClockLeaves { .. }
                 | Self::NotConverged { .. }
                 | Self::NotEstimable { .. }
+                | Self::Unlike { .. }
         )
     }
 }

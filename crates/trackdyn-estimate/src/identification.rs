@@ -153,8 +153,10 @@ pub fn identify_unless_stopped(
         let genetic_estimate =
             estimate_at(observations, &genetic.parameters, free, &by_distance, Loss::Squares);
         let (least_squares, refused) = seen.least_squares(free);
-        let doubts =
+        let wide =
             least_squares.as_ref().map_or(Vec::new(), |estimate| doubts(estimate, options.gauge));
+        let unlike = seen.unlike().filter(|_| !wide.is_empty());
+        let doubts: Vec<Doubt> = unlike.into_iter().chain(wide).collect();
         let contradictions = least_squares.as_ref().map_or(Vec::new(), |estimate| {
             let spin = spin_test.as_ref().ok();
             let noise = seen.known_noise();
@@ -184,6 +186,11 @@ pub fn identify_unless_stopped(
         // They explain a distance that no friction makes.
         icrs.contradictions.retain(|one| of_speeds.is_empty() || !one.is_apart());
         icrs.contradictions.extend(of_speeds);
+        let holds = with_alphas.contradictions.is_empty();
+        if let (true, Ok(fit), Ok(with)) = (holds, &icrs.least_squares, &with_alphas.least_squares)
+        {
+            icrs.contradictions.extend(Contradiction::of_factors(fit, with));
+        }
     }
     let is_open = fits.iter().all(|fit| fit.least_squares.is_err() || !fit.doubts.is_empty());
     let separation = if is_open { Separation::of_motions(observations).ok() } else { None };
@@ -308,6 +315,14 @@ impl<'a> Seen<'a> {
             weights,
             weighting,
         })
+    }
+
+    /// Why nothing is determined: tracks and poses that do not turn alike; none where they do.
+    fn unlike(&self) -> Option<Doubt> {
+        match self.clock {
+            Clock::Unknown { correlation, .. } => Some(Doubt::Unlike { correlation: correlation? }),
+            Clock::Given(_) | Clock::Estimated(_) => None,
+        }
     }
 
     /// The noise that shows without a model, or is stated.

@@ -14,6 +14,9 @@ use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, NORMAL_FROM_MAD, median, quant
 /// Median of the length of two standard normal numbers, √(2 ln 2).
 const RAYLEIGH_MEDIAN: f64 = 1.177_410_022_515_475;
 
+/// Least way of a robot per way of its tracks that tells of the tracks.
+const MIN_WAY: f64 = 0.15;
+
 /// Part of what may be left of the way that is left of a block where nothing is wrong.
 const QUIET: f64 = 0.5;
 
@@ -60,12 +63,19 @@ impl LeftOver {
             let variance = f64::midpoint(variance(segment, 0), variance(segment, 1));
             [x.hypot(y), forward.hypot(left), variance]
         });
+        // A robot that turns on the spot goes nowhere: its way says nothing.
+        let gone: f64 = ways.iter().map(|[there, ..]| there).sum();
+        let run = observations.segments().iter().map(|segment| {
+            let travelled = observations.travelled(segment);
+            f64::midpoint(travelled.left.abs(), travelled.right.abs())
+        });
+        let goes_nowhere = gone < MIN_WAY * run.sum::<f64>();
         let sides = rows(segments(), |_, [.., yaw], [_, left, _]| {
             [yaw.abs() * (x_r - x_l), left.abs(), 0.0]
         });
         Self {
             turning: left(turns, 1.0 / NORMAL_FROM_MAD),
-            way: left(ways, RAYLEIGH_MEDIAN),
+            way: if goes_nowhere { 0.0 } else { left(ways, RAYLEIGH_MEDIAN) },
             sideways: left(sides, 1.0 / NORMAL_FROM_MAD),
         }
     }

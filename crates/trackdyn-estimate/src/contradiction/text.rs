@@ -2,7 +2,7 @@
 
 use super::Contradiction;
 use std::fmt::{Display, Formatter, Result};
-use trackdyn_core::Side;
+use trackdyn_core::{PerSide, Side};
 use trackdyn_recording::unit;
 
 /// χ of usual robots, by which units of length are named.
@@ -66,6 +66,12 @@ impl Display for Contradiction {
                     ),
                 }
             }
+            Self::Factors { alphas: PerSide { left, right }, ratio } => write!(
+                f,
+                "constant factors on the track speeds, {left:.3} left and {right:.3} right, leave \
+                 {ratio:.1} times less than none, as slip does not: check wheel radii, gears and \
+                 units of each side; the fit with these factors holds"
+            ),
             Self::Turning { left } => write!(
                 f,
                 "the fit leaves {:.0} % of the turning: tracks and poses do not tell of one drive: \

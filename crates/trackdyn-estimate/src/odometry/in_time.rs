@@ -30,7 +30,7 @@ pub fn delay(recording: &Recording, file: &VehicleFile, clock: &Clock) -> f64 {
     match clock {
         _ if own != 0.0 => own,
         Clock::Estimated(offset) => offset.tau - answer(recording, file).unwrap_or(0.0),
-        Clock::Given(_) | Clock::Unknown(_) => clock.tau(),
+        Clock::Given(_) | Clock::Unknown { .. } => clock.tau(),
     }
 }
 

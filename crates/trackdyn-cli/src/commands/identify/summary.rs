@@ -113,7 +113,7 @@ fn clock(text: &mut String, clock: &Clock, is_fitted: bool) {
             "poses {:.3} s late (standard error {:.3} s){known}",
             offset.tau, offset.standard_error
         ),
-        Clock::Unknown(reason) => format!("taken as equal: {reason}"),
+        Clock::Unknown { reason, .. } => format!("taken as equal: {reason}"),
     };
     *text += &wrapped("  clock      ", &line);
 }

@@ -75,6 +75,21 @@ pub enum Warning {
         /// Their source.
         poses: String,
     },
+    /// Poses along a chain of transforms that are odometry between corrections: left out.
+    DeadReckoning {
+        /// The transform that is corrected, such as map → odom.
+        corrected: String,
+        /// Its child frame, which odometry moves the robot in.
+        frame: String,
+        /// Poses at its corrections, which are kept.
+        corrections: usize,
+        /// Usual time from one to the next, s.
+        interval: f64,
+        /// The transform that moves in between.
+        odometry: String,
+        /// Poses in between.
+        left_out: usize,
+    },
     /// Tracks and poses of a run that share no time.
     NoCommonTime {
         /// The run.
@@ -285,6 +300,15 @@ impl fmt::Display for Warning {
                 "{poses}: if it comes from the tracks themselves, it agrees with any model of \
                  them: poses have to come from something else"
             ),
+            Self::DeadReckoning { corrected, frame, corrections, interval, odometry, left_out } => {
+                write!(
+                    f,
+                    "{corrected} is corrected {corrections} times, usually every {interval:.2} s: \
+                 poses are measured there; {left_out} in between are dead reckoning by \
+                 {odometry}, left out (where that is measured by something else than the tracks, \
+                 --parent-frame {frame} takes it alone)"
+                )
+            }
             Self::NoCommonTime { run, offset } => write!(
                 f,
                 "run {run}: tracks and poses share no time: the first pose is stamped {offset:.3} \

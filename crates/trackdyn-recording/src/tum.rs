@@ -41,8 +41,8 @@ pub fn read_by(
     if let Some(doubt) = tilted.clone().filter(|_| !is_accepted) {
         return Err(Error::contradiction(trajectory, doubt));
     }
-    let (tracks, imu) = (folder::read_single_tracks(tracks)?, Series::default());
-    let mut warnings: Vec<Warning> = tilted.into_iter().map(Warning::Accepted).collect();
+    let ((tracks, mut warnings), imu) = (folder::read_single_tracks(tracks)?, Series::default());
+    warnings.extend(tilted.map(Warning::Accepted));
     let mut runs = divide(vec![UncheckedRun { id: 0, tracks, poses, imu }], &mut warnings);
     options.from_units(trajectory, &mut runs)?;
     turn_sensor(&mut runs, options.pose_axes, options.mount_yaw);

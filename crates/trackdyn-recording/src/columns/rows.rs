@@ -26,7 +26,7 @@ const TIME: &str = "a number, a date such as 2024-03-31T00:59:30.05 or 31.03.202
 /// [`Error::Options`] for units and a radius that do not go together, those of [`Recording::new`].
 pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Recording, Error> {
     let names: Vec<&str> = columns.columns.values().map(|column| column.name.as_str()).collect();
-    let mut table = Table::open_any(path, &names)?;
+    let mut table = Table::open_any(path, &names)?.of_log(&names);
     let mut has_row = table.advance()?;
     let units = if has_row { units::of_row(columns, &table)? } else { None };
     if units.is_some() {
@@ -47,8 +47,8 @@ pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Re
         let message = "no rows below the header".to_owned();
         return Err(Error::Empty { path: path.to_owned(), message });
     }
-    let runs = rows(table, columns, scales, options.gyro_in_degrees)?;
-    let mut warnings = Vec::new();
+    let runs = rows(&mut table, columns, scales, options.gyro_in_degrees)?;
+    let mut warnings = table.left_out();
     let mut runs = divide(runs, &mut warnings);
     let gyroscope = columns.columns.get(&Key::Gyro);
     if let Some(gyroscope) = gyroscope.filter(|_| !columns.has_poses()) {
@@ -68,7 +68,7 @@ pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Re
 
 /// The rows of all runs, from the current one on.
 fn rows(
-    mut table: Table,
+    table: &mut Table,
     columns: &Columns,
     scales: [f64; 2],
     gyro_in_degrees: bool,

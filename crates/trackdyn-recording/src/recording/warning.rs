@@ -54,6 +54,26 @@ pub enum Warning {
         /// Messages that were read before.
         messages: u64,
     },
+    /// The end of a table that is cut off or is no data.
+    EndLeftOut {
+        /// The file.
+        path: PathBuf,
+        /// Line of its first row.
+        line: u64,
+        /// Its rows.
+        rows: usize,
+        /// Its bytes, without separators.
+        bytes: usize,
+    },
+    /// The header of a table that stands there again below.
+    HeadersLeftOut {
+        /// The file.
+        path: PathBuf,
+        /// How often.
+        count: usize,
+        /// Line of the first of them.
+        line: u64,
+    },
     /// Chunks of a bag that are damaged: none of their messages is used; those around them are.
     ChunksDropped {
         /// The file.
@@ -284,6 +304,18 @@ impl fmt::Display for Warning {
             Self::Damaged { path, message, messages } => {
                 write!(f, "{}: {message}; the {messages} messages before are used", path.display())
             }
+            Self::EndLeftOut { path, line, rows, bytes } => write!(
+                f,
+                "{}:{line}: the table ends in {} ({bytes} bytes) cut off or without data, left out",
+                path.display(),
+                counted(*rows, "row")
+            ),
+            Self::HeadersLeftOut { path, count, line } => write!(
+                f,
+                "{}:{line}: the header stands there again ({}), left out",
+                path.display(),
+                counted(*count, "time")
+            ),
             Self::ChunksDropped { path, chunks, seconds, problem } => write!(
                 f,
                 "{}: damaged, and read around the damage: {chunks} chunks are left out, \

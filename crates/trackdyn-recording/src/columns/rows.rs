@@ -1,7 +1,7 @@
 //! The rows of a table whose columns are named.
 
 use super::time::Times;
-use super::{Columns, Key, Unit, units};
+use super::{Column, Columns, Key, Unit, units};
 use crate::recording::{Recording, Source, UncheckedRun, Warning};
 use crate::recording::{divide, turn_by_gyroscope, turn_sensor};
 use crate::rosbag::yaw_of_quaternion;
@@ -47,7 +47,7 @@ pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Re
         let message = "no rows below the header".to_owned();
         return Err(Error::Empty { path: path.to_owned(), message });
     }
-    let runs = rows(&mut table, columns, scales, options.gyro_in_degrees)?;
+    let runs = rows(&mut table, columns, scales, options)?;
     let mut warnings = table.left_out();
     let mut runs = divide(runs, &mut warnings);
     let gyroscope = columns.columns.get(&Key::Gyro);
@@ -71,7 +71,7 @@ fn rows(
     table: &mut Table,
     columns: &Columns,
     scales: [f64; 2],
-    gyro_in_degrees: bool,
+    options: &TableOptions,
 ) -> Result<Vec<UncheckedRun>, Error> {
     let at = |key: Key| {
         let column = columns.columns.get(&key)?;
@@ -82,12 +82,16 @@ fn rows(
     let quaternion = [Key::Qx, Key::Qy, Key::Qz, Key::Qw].map(at);
     let run = at(Key::Run).map(|(place, _)| place);
     let places = [t, x, y, left, right, yaw].map(|of| of.map(|(place, _)| place));
-    let factors = [t, x, y].map(|of| of.map_or(1.0, |(_, column)| column.factor()));
+    let of_poses = options.pose_unit.factor();
+    let factors = [(t, 1.0), (x, of_poses), (y, of_poses)].map(|(of, open)| {
+        let unit = |column: &Column| if column.unit == Unit::Open { open } else { 1.0 };
+        of.map_or(1.0, |(_, column)| unit(column) * column.factor())
+    });
     let yaw = yaw.map(|(place, column)| (place, column.unit, column.factor()));
     let quaternion = quaternion.map(|of| of.map(|(place, column)| (place, column.sign)));
     let gyroscope = at(Key::Gyro).map(|(place, column)| {
         let is_open = column.unit == Unit::Open;
-        let unit = if is_open && gyro_in_degrees { TAU / 360.0 } else { 1.0 };
+        let unit = if is_open && options.gyro_in_degrees { TAU / 360.0 } else { 1.0 };
         (place, unit * column.factor())
     });
     let mut runs: BTreeMap<i64, UncheckedRun> = BTreeMap::new();

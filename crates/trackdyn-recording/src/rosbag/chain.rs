@@ -77,13 +77,16 @@ pub(super) fn read(
         return Err(refuse(format!("nothing moves between {parent:?} and {child:?}")));
     };
     let stamps = leading.moments.iter().map(|(stamp, _)| *stamp);
-    let all = Composed::of(&series, stamps.map(|stamp| (stamp, None)));
+    let unit = options.pose_unit.factor();
+    let all = Composed::of(&series, unit, stamps.map(|stamp| (stamp, None)));
     if all.poses.is_empty() {
         return Err(refuse(format!("the transforms from {parent:?} to {child:?} share no time")));
     }
     let links: Vec<String> = series.iter().map(Series::to_string).collect();
     let way = format!("{child} in {parent} by {}", links.join(", "));
-    if let Some((measured, told)) = corrected.and_then(|one| one.measured(&way, &series, &all)) {
+    if let Some((measured, told)) =
+        corrected.and_then(|one| one.measured(&way, &series, unit, &all))
+    {
         warnings.extend(told);
         let Composed { poses, attitude, .. } = measured;
         return Ok(Chain { poses, attitude, by, warnings });
@@ -110,9 +113,11 @@ struct Composed {
 }
 
 impl Composed {
-    /// At these stamps; where one has it, with this transform of the link at this place.
+    /// At these stamps; where one has it, with this transform of the link at this place. A
+    /// transform has so many metres per number.
     fn of<'a>(
         series: &[Series],
+        unit: f64,
         stamps: impl Iterator<Item = (i64, Option<(usize, &'a Isometry3<f64>)>)>,
     ) -> Self {
         let mut all = Self::default();
@@ -128,7 +133,8 @@ impl Composed {
                 continue;
             };
             all.attitude.note(transform.rotation.coords.into());
-            all.poses.push((stamp, planar(&transform)));
+            let [x, y, yaw] = planar(&transform);
+            all.poses.push((stamp, [unit * x, unit * y, yaw]));
         }
         all
     }
@@ -179,10 +185,11 @@ impl Corrected {
         self,
         way: &str,
         series: &[Series],
+        unit: f64,
         all: &Composed,
     ) -> Option<(Composed, [Warning; 2])> {
         let stamps = self.values.iter().map(|(stamp, value)| (*stamp, Some((self.place, value))));
-        let measured = Composed::of(series, stamps);
+        let measured = Composed::of(series, unit, stamps);
         let [corrections, of] = [measured.poses.len(), all.poses.len()];
         let left_out = of.saturating_sub(corrections);
         if corrections < MIN_CORRECTIONS || MAX_LOST * left_out <= of {

@@ -18,7 +18,7 @@ mod opening;
 
 use ends::Ends;
 pub(crate) use number::number;
-use number::{shows_decimal_comma, with_commas};
+use number::{any_number, shows_decimal_comma, with_commas};
 use opening::Text;
 
 /// Most rows of a table, and messages of a bag, that are kept: a day at 100 Hz. A reading takes 24
@@ -98,8 +98,12 @@ impl Table {
         let lacks = required.iter().any(|name| !header.iter().any(|column| column == name));
         if twice || lacks {
             let expected = format!("{}, each name once", required.join(","));
-            let found = shortened(&header.join(","), MAX_SHOWN);
-            let found = if found.is_empty() { "(none)".to_owned() } else { found };
+            let mut found = shortened(&header.join(","), MAX_SHOWN);
+            if found.is_empty() {
+                "(none)".clone_into(&mut found);
+            } else if header.iter().all(|name| any_number(name.as_bytes()).is_some()) {
+                found += " (numbers: a line with the names of the columns is missing above)";
+            }
             return Err(Error::Header { path: path.to_owned(), line, found, expected });
         }
         let (path, row, has_commas) =

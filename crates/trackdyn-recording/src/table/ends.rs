@@ -187,6 +187,12 @@ mod tests {
     }
 
     #[test]
+    fn a_table_without_names_is_told_so() {
+        let text = read("1,2,3", "", "").expect_err("no names").to_string();
+        assert!(text.contains(":1: columns 1,2,3 (numbers: a line with the names"), "{text}");
+    }
+
+    #[test]
     fn a_separator_at_the_end_of_rows_is_no_cell() {
         for (header, separator) in
             [("t,v,w,", ","), ("t,v,w", ","), ("t,v,w,", ""), ("t,v,w,", ",7")]

@@ -51,18 +51,18 @@ pub fn read_by(folder: &Path, options: &TableOptions) -> Result<Recording, Error
     let manifest = Manifest::read(&path)?;
     let mut runs: BTreeMap<i64, UncheckedRun> = BTreeMap::new();
     let mut split = None;
-    fill(&table(folder, "tracks"), &mut runs, &mut split, |run| &mut run.tracks)?;
+    let mut warnings =
+        fill(&table(folder, "tracks"), &mut runs, &mut split, |run| &mut run.tracks)?;
     let (poses, imu) = (table(folder, "poses"), table(folder, "imu"));
     let by_gyroscope = imu.exists() && !poses.exists();
     if !by_gyroscope {
-        fill(&poses, &mut runs, &mut split, |run| &mut run.poses)?;
+        warnings.extend(fill(&poses, &mut runs, &mut split, |run| &mut run.poses)?);
     }
     if imu.exists() {
-        fill(&imu, &mut runs, &mut split, |run| &mut run.imu)?;
+        warnings.extend(fill(&imu, &mut runs, &mut split, |run| &mut run.imu)?);
     }
     let source =
         Source { format: Format::Folder, path: Some(folder.to_owned()), ..Source::computed() };
-    let mut warnings = Vec::new();
     let mut runs = divide(runs.into_values().collect(), &mut warnings);
     options.from_units(folder, &mut runs)?;
     if by_gyroscope {
@@ -99,14 +99,14 @@ fn read_table<S: Sample>(path: &Path) -> Result<Rows<S>, Error> {
     })
 }
 
-/// The series of one file, put into their runs. `split` says whether the files so far have a
-/// column `run`.
+/// The series of one file, put into their runs, and what was left out of it. `split` says whether
+/// the files so far have a column `run`.
 fn fill<S: Sample>(
     path: &Path,
     runs: &mut BTreeMap<i64, UncheckedRun>,
     split: &mut Option<bool>,
     series_of: impl Fn(&mut UncheckedRun) -> &mut Series<S>,
-) -> Result<(), Error> {
+) -> Result<Vec<Warning>, Error> {
     let rows = read_table::<S>(path)?;
     if *split.get_or_insert(rows.has_runs) != rows.has_runs {
         let (found, expected) = if rows.has_runs {
@@ -125,14 +125,16 @@ fn fill<S: Sample>(
         let run = runs.entry(id).or_insert_with(|| UncheckedRun { id, ..Default::default() });
         *series_of(run) = series;
     }
-    Ok(())
+    Ok(rows.warnings)
 }
 
-/// Track speeds that go with poses from elsewhere.
+/// Track speeds that go with poses from elsewhere, and what was left out.
 ///
 /// # Errors
 /// [`Error::Header`] when the table has runs, and those of the table.
-pub(crate) fn read_single_tracks(path: &Path) -> Result<Series<TrackSample>, Error> {
+pub(crate) fn read_single_tracks(
+    path: &Path,
+) -> Result<(Series<TrackSample>, Vec<Warning>), Error> {
     let rows = read_table::<TrackSample>(path)?;
     if rows.has_runs {
         return Err(Error::Header {
@@ -142,5 +144,5 @@ pub(crate) fn read_single_tracks(path: &Path) -> Result<Series<TrackSample>, Err
             expected: "one run beside one trajectory, without a column run".to_owned(),
         });
     }
-    Ok(rows.runs.into_values().next().unwrap_or_default())
+    Ok((rows.runs.into_values().next().unwrap_or_default(), rows.warnings))
 }

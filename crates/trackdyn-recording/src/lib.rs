@@ -6,7 +6,7 @@
 //! - [`selection`]: some of its runs, or a time of them.
 //! - [`doubt`]: what tracks and poses of one recording may contradict each other in.
 //! - [`hold`]: track speeds between two readings.
-//! - [`mod@unit`]: units of track speeds.
+//! - [`mod@unit`]: units of track speeds and of positions.
 //! - [`table`]: CSV tables, for other readers of columns of numbers.
 //!
 //! Axes are those of REP-103 (x forward, y left), units SI, angles in radians.
@@ -43,4 +43,4 @@ pub use sample::{ImuSample, PoseSample, Series, TrackSample};
 pub use selection::RunList;
 pub use smoothed::smoothed;
 pub use table_options::TableOptions;
-pub use unit::SpeedUnit;
+pub use unit::{PoseUnit, SpeedUnit};

@@ -1,8 +1,9 @@
 //! Tables of steady motion: a measured map of instantaneous centres of rotation.
 
-use crate::Error;
 use crate::folder::MANIFEST;
 use crate::table::Table;
+use crate::table_options::scale_of_table;
+use crate::{Error, TableOptions};
 use std::path::{Path, PathBuf};
 use trackdyn_core::input::name_of;
 use trackdyn_core::robust::median;
@@ -45,12 +46,24 @@ impl OperatingPoints {
     }
 
     /// Reads a table `v_left,v_right,v_forward,v_lateral,yaw_rate`; an empty cell was not measured.
+    /// All is in SI units.
     ///
     /// # Errors
+    /// Those of [`Self::read_by`].
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        Self::read_by(path, &TableOptions::default())
+    }
+
+    /// Reads a table whose track speeds have the unit, and the radius of the wheels, of the
+    /// options; of these, no others count.
+    ///
+    /// # Errors
+    /// [`Error::Options`] for a unit of wheels without their radius, and the reverse;
     /// [`Error::Header`], [`Error::Cell`] with line and column (also for NaN, an infinity, or an
     /// empty track speed), [`Error::Empty`] without rows, [`Error::PointsInDegrees`] for yaw rates
     /// that are no radians.
-    pub fn read(path: &Path) -> Result<Self, Error> {
+    pub fn read_by(path: &Path, options: &TableOptions) -> Result<Self, Error> {
+        let scale = scale_of_table(path, options.speed_unit, options.wheel_radius)?;
         let mut table = Table::open(path, &COLUMNS).map_err(|error| match error {
             Error::Header { path, line, found, expected } => {
                 let expected = format!(
@@ -70,8 +83,8 @@ impl OperatingPoints {
                 if empty { Ok(None) } else { speed(place).map(Some) }
             };
             points.push(OperatingPoint {
-                v_left: speed(0)?,
-                v_right: speed(1)?,
+                v_left: scale * speed(0)?,
+                v_right: scale * speed(1)?,
                 v_forward: measured(2)?,
                 v_lateral: measured(3)?,
                 yaw_rate: measured(4)?,
@@ -101,4 +114,37 @@ fn turn_in_degrees(points: &[OperatingPoint]) -> Option<f64> {
     });
     let mut ratios: Vec<f64> = ratios.collect();
     median(&mut ratios).filter(|per_speed| *per_speed > MIN_DEGREES)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::SpeedUnit;
+
+    #[test]
+    fn track_speeds_have_the_unit_of_the_options() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("points.csv");
+        std::fs::write(&path, format!("{}\n-60,30,0.5,,0.4\n", COLUMNS.join(",")))
+            .expect("written");
+        let read = |unit, wheel_radius| {
+            let options =
+                TableOptions { speed_unit: Some(unit), wheel_radius, ..Default::default() };
+            OperatingPoints::read_by(&path, &options)
+        };
+        let points = read(SpeedUnit::MillimetresPerSecond, None).expect("points").points;
+        let (v_left, v_right) = (-0.06, 0.03);
+        let expected = OperatingPoint {
+            v_left,
+            v_right,
+            v_forward: Some(0.5),
+            v_lateral: None,
+            yaw_rate: Some(0.4),
+        };
+        assert_eq!(points, [expected]);
+        let points = read(SpeedUnit::TurnsPerMinute, Some(0.2)).expect("points").points;
+        assert!((points[0].v_left + 0.2 * std::f64::consts::TAU).abs() < 1e-12, "{points:?}");
+        let text = read(SpeedUnit::TurnsPerMinute, None).expect_err("no radius").to_string();
+        assert!(text.contains("--wheel-radius METRES"), "{text}");
+    }
 }

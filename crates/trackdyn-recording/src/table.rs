@@ -1,6 +1,7 @@
 //! CSV tables with a header: rows of numbers, and errors that point at the cell.
 
 use crate::Error;
+use crate::recording::Warning;
 use csv::{ByteRecord, ErrorKind, Reader, ReaderBuilder};
 use std::cell::Cell;
 use std::collections::HashSet;
@@ -11,11 +12,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use trackdyn_core::input;
 use trackdyn_core::lines::shortened;
 
+mod ends;
 mod number;
 mod opening;
 
+use ends::Ends;
 pub(crate) use number::number;
-use number::{shows_decimal_comma, with_commas};
+use number::{any_number, shows_decimal_comma, with_commas};
 use opening::Text;
 
 /// Most rows of a table, and messages of a bag, that are kept: a day at 100 Hz. A reading takes 24
@@ -36,7 +39,11 @@ pub struct Table {
     since_row: Arc<AtomicU64>,
     rows: u64,
     header: Vec<String>,
+    /// Whether the header ends in an empty cell, which is no column.
+    has_spare: bool,
     row: ByteRecord,
+    /// How a log ends; none of other tables.
+    ends: Option<Ends>,
     /// Whether numbers are written with a decimal comma: beside semicolons, and where a cell before
     /// has shown it.
     has_commas: Cell<bool>,
@@ -54,7 +61,7 @@ struct Above {
 impl Table {
     /// Opens a file and reads its header. Lines above the header are left out where it is found
     /// below them. Cells may stand between commas, tabs, or semicolons. Beside semicolons, numbers
-    /// may have a decimal comma.
+    /// may have a decimal comma. A separator may stand at the end of header and rows.
     ///
     /// # Errors
     /// [`Error::Unreadable`]; [`Error::Header`] when a name stands there twice or `required` lacks;
@@ -77,24 +84,46 @@ impl Table {
         let since_row = Arc::new(AtomicU64::new(0));
         let reader = Bounded { content: reader, since_row: since_row.clone() };
         let mut builder = ReaderBuilder::new();
-        let mut reader = builder.buffer_capacity(1 << 18).delimiter(delimiter).from_reader(reader);
+        builder.buffer_capacity(1 << 18).delimiter(delimiter).flexible(true);
+        let mut reader = builder.from_reader(reader);
         let header = reader.byte_headers().map_err(|error| csv_error(path, above, 1, error))?;
         let line = header.position().map_or(1, csv::Position::line) + lines;
-        let header: Vec<String> =
+        let mut header: Vec<String> =
             header.iter().map(|name| opening::text(name.trim_ascii())).collect();
+        let has_spare = header.len() > 1 && header.last().is_some_and(String::is_empty);
+        header.truncate(header.len() - usize::from(has_spare));
         let counts = |name: &String| !is_any || required.contains(&name.as_str());
         let mut names = HashSet::new();
         let twice = header.iter().filter(|name| counts(name)).any(|name| !names.insert(name));
         let lacks = required.iter().any(|name| !header.iter().any(|column| column == name));
         if twice || lacks {
             let expected = format!("{}, each name once", required.join(","));
-            let found = shortened(&header.join(","), MAX_SHOWN);
-            let found = if found.is_empty() { "(none)".to_owned() } else { found };
+            let mut found = shortened(&header.join(","), MAX_SHOWN);
+            if found.is_empty() {
+                "(none)".clone_into(&mut found);
+            } else if header.iter().all(|name| any_number(name.as_bytes()).is_some()) {
+                found += " (numbers: a line with the names of the columns is missing above)";
+            }
             return Err(Error::Header { path: path.to_owned(), line, found, expected });
         }
         let (path, row, has_commas) =
             (path.to_owned(), ByteRecord::new(), Cell::new(delimiter == b';'));
-        Ok(Self { path, reader, since_row, rows: 0, header, row, has_commas, above })
+        let (rows, ends) = (0, None);
+        Ok(Self { path, reader, since_row, rows, header, has_spare, row, ends, has_commas, above })
+    }
+
+    /// The same table as one that a program wrote until it was switched off: its end may be cut off
+    /// or have text, and its header may stand there again. These are left out. Cells of the columns
+    /// given have numbers or times.
+    pub(crate) fn of_log(mut self, columns: &[&str]) -> Self {
+        let places = columns.iter().filter_map(|name| self.column(name)).collect();
+        self.ends = Some(Ends::new(places, &self.header));
+        self
+    }
+
+    /// What was left out of a log.
+    pub(crate) fn left_out(&self) -> Vec<Warning> {
+        self.ends.as_ref().map_or_else(Vec::new, |ends| ends.warnings(&self.path))
     }
 
     /// Names of the columns.
@@ -112,6 +141,52 @@ impl Table {
     /// # Errors
     /// [`Error::Row`] where the number of cells is wrong, [`Error::Unreadable`].
     pub fn advance(&mut self) -> Result<bool, Error> {
+        let Some(mut ends) = self.ends.take() else {
+            return Ok(self.read()? && self.has_cells()?);
+        };
+        let found = self.advance_log(&mut ends);
+        self.ends = Some(ends);
+        found
+    }
+
+    /// Goes to the next row of a log.
+    fn advance_log(&mut self, ends: &mut Ends) -> Result<bool, Error> {
+        loop {
+            if let Some(row) = ends.next_ahead() {
+                self.row = row;
+                return self.has_cells();
+            }
+            if !self.read()? {
+                return Ok(false);
+            }
+            if ends.is_header(&self.row) {
+                ends.note_header(self.line());
+            } else if !ends.is_odd(&self.row) {
+                ends.note_row(&self.row);
+                return self.has_cells();
+            } else {
+                self.look_ahead(ends)?;
+            }
+        }
+    }
+
+    /// Reads on from a row that is none of data, to the end of the table or the next that is.
+    fn look_ahead(&mut self, ends: &mut Ends) -> Result<(), Error> {
+        let line = self.line();
+        let mut rows = vec![std::mem::take(&mut self.row)];
+        while rows.len() <= ends::MAX_ROWS && rows.last().is_some_and(|row| ends.is_odd(row)) {
+            if !self.read()? {
+                ends.note_end(line, rows);
+                return Ok(());
+            }
+            rows.push(std::mem::take(&mut self.row));
+        }
+        ends.keep_ahead(rows);
+        Ok(())
+    }
+
+    /// Reads the next row as it stands in the file; false at the end.
+    fn read(&mut self) -> Result<bool, Error> {
         self.since_row.store(0, Ordering::Relaxed);
         self.rows += 1;
         if self.rows > MAX_ROWS {
@@ -120,6 +195,22 @@ impl Table {
         let begin = self.reader.position().line();
         let read = self.reader.read_byte_record(&mut self.row);
         read.map_err(|error| csv_error(&self.path, self.above, begin, error))
+    }
+
+    /// True where the current row has a cell for each column, and at most an empty one more.
+    fn has_cells(&self) -> Result<bool, Error> {
+        let (found, expected) = (self.row.len(), self.header.len());
+        let is_spare = self.has_spare || self.cell(expected).is_empty();
+        if found == expected || (found == expected + 1 && is_spare) {
+            return Ok(true);
+        }
+        let (found, expected) = (found as u64, expected as u64);
+        Err(Error::Row { path: self.path.clone(), line: self.line(), found, expected })
+    }
+
+    /// The line of the current row.
+    fn line(&self) -> u64 {
+        self.row.position().map_or(0, |position| line(&self.path, self.above, position))
     }
 
     /// The cell of the current row without the blanks around it.
@@ -172,7 +263,7 @@ impl Table {
     pub fn cell_error(&self, column: usize, expected: &'static str) -> Error {
         Error::Cell {
             path: self.path.clone(),
-            line: self.row.position().map_or(0, |position| line(&self.path, self.above, position)),
+            line: self.line(),
             column: column + 1,
             name: shortened(&self.header[column], MAX_SHOWN),
             value: shortened(&String::from_utf8_lossy(self.cell(column)), MAX_SHOWN),
@@ -248,12 +339,6 @@ fn csv_error(path: &Path, above: Above, begin: u64, error: csv::Error) -> Error 
             Error::Empty { path, message }
         }
         ErrorKind::Io(cause) => Error::Unreadable { path, cause },
-        ErrorKind::UnequalLengths { pos, expected_len, len } => Error::Row {
-            line: pos.map_or(0, |position| line(&path, above, &position)),
-            path,
-            found: len,
-            expected: expected_len,
-        },
         other => Error::Empty { path, message: format!("not a table: {other:?}") },
     }
 }

@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::doubt::DoubtKind;
 use crate::recording::{PoseAxes, UncheckedRun};
-use crate::unit::SpeedUnit;
+use crate::unit::{PoseUnit, SpeedUnit};
 use std::path::Path;
 
 /// How tables of track speeds and poses are read.
@@ -13,6 +13,8 @@ pub struct TableOptions {
     pub speed_unit: Option<SpeedUnit>,
     /// Belt travel per radian, m, where these are speeds of wheels.
     pub wheel_radius: Option<f64>,
+    /// Unit of the positions of poses.
+    pub pose_unit: PoseUnit,
     /// Axes in which the poses are told.
     pub pose_axes: PoseAxes,
     /// Yaw of the x axis of the pose sensor on the robot, rad: π where it faces backwards.
@@ -33,6 +35,10 @@ impl TableOptions {
         for reading in runs.iter_mut().flat_map(|run| &mut run.tracks.samples) {
             reading.v_left *= scale;
             reading.v_right *= scale;
+        }
+        for sample in runs.iter_mut().flat_map(|run| &mut run.poses.samples) {
+            sample.pose.x *= self.pose_unit.factor();
+            sample.pose.y *= self.pose_unit.factor();
         }
         for reading in runs.iter_mut().flat_map(|run| &mut run.imu.samples) {
             if self.gyro_in_degrees {

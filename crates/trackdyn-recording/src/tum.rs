@@ -1,8 +1,9 @@
 //! Trajectories of the TUM RGB-D benchmark, with the track speeds in a CSV beside them.
 //!
 //! A line is `t x y z qx qy qz qw`, blanks between, `#` before a remark
-//! (<https://cvg.cit.tum.de/data/datasets/rgbd-dataset/file_formats>). The motion is planar: x, y
-//! and the yaw of the quaternion count, the rest is dropped; poses of a camera are refused.
+//! (<https://cvg.cit.tum.de/data/datasets/rgbd-dataset/file_formats>); names of the columns may
+//! stand above. The motion is planar: x, y and the yaw of the quaternion count, the rest is dropped;
+//! poses of a camera are refused.
 
 use crate::attitude::Attitude;
 use crate::doubt::{Axes, Doubt, DoubtKind};
@@ -41,8 +42,8 @@ pub fn read_by(
     if let Some(doubt) = tilted.clone().filter(|_| !is_accepted) {
         return Err(Error::contradiction(trajectory, doubt));
     }
-    let (tracks, imu) = (folder::read_single_tracks(tracks)?, Series::default());
-    let mut warnings: Vec<Warning> = tilted.into_iter().map(Warning::Accepted).collect();
+    let ((tracks, mut warnings), imu) = (folder::read_single_tracks(tracks)?, Series::default());
+    warnings.extend(tilted.map(Warning::Accepted));
     let mut runs = divide(vec![UncheckedRun { id: 0, tracks, poses, imu }], &mut warnings);
     options.from_units(trajectory, &mut runs)?;
     turn_sensor(&mut runs, options.pose_axes, options.mount_yaw);
@@ -77,6 +78,7 @@ fn poses(path: &Path) -> Result<Poses, Error> {
     let mut attitude = Attitude::default();
     let mut text = Vec::new();
     let mut line = 0;
+    let mut header_was_read = false;
     loop {
         text.clear();
         let mut row = (&mut reader).take(MAX_ROW_SIZE + 1);
@@ -89,7 +91,9 @@ fn poses(path: &Path) -> Result<Poses, Error> {
         }
         let marked = text.strip_prefix(b"\xef\xbb\xbf").filter(|_| line == 1);
         let row = marked.unwrap_or(&text).trim_ascii();
-        if !row.is_empty() && row[0] != b'#' {
+        let is_header = poses.is_empty() && !header_was_read && is_of_names(row);
+        header_was_read |= is_header;
+        if !row.is_empty() && row[0] != b'#' && !is_header {
             poses.push(parse_row(row, path, line, &mut attitude)?);
         }
     }
@@ -98,6 +102,12 @@ fn poses(path: &Path) -> Result<Poses, Error> {
         return Err(Error::Empty { path: path.to_owned(), message });
     }
     Ok((poses.into(), attitude.out_of_plane()))
+}
+
+/// Whether a line has names of columns: as many words, and none of them a number.
+fn is_of_names(row: &[u8]) -> bool {
+    let words = || row.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+    words().count() == COLUMNS.len() && words().all(|word| number(word).is_none())
 }
 
 fn parse_row(
@@ -128,4 +138,42 @@ fn parse_row(
     let [t, x, y, _, quaternion @ ..] = values;
     attitude.note(quaternion);
     Ok(PoseSample { t, pose: Pose::new(x, y, yaw_of_quaternion(quaternion)) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::PoseUnit;
+
+    /// A drive of 4 s: a trajectory in mm, and the speeds of its tracks.
+    fn drive(header: &str) -> (tempfile::TempDir, Result<Recording, Error>) {
+        let (mut trajectory, mut tracks) = (header.to_owned(), "t,v_left,v_right\n".to_owned());
+        for k in 0..40 {
+            let (s, tenth) = (k / 10, k % 10);
+            trajectory += &format!("{s}.{tenth} {} 0 0 0 0 0 1\n", 100 * k);
+            tracks += &format!("{s}.{tenth},1,1\n");
+        }
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = |name: &str| folder.path().join(name);
+        std::fs::write(path("walk.tum"), trajectory).expect("written");
+        std::fs::write(path("tracks.csv"), tracks).expect("written");
+        let options = TableOptions { pose_unit: PoseUnit::Millimetres, ..TableOptions::default() };
+        let recording = read_by(&path("walk.tum"), &path("tracks.csv"), "robot", &options);
+        (folder, recording)
+    }
+
+    #[test]
+    fn names_of_columns_may_stand_above_and_positions_have_a_unit() {
+        for header in ["", "timestamp tx ty tz qx qy qz qw\n", "# t x\nt x y z qx qy qz qw\n"] {
+            let (_, recording) = drive(header);
+            let recording = recording.expect(header);
+            let poses = recording.runs()[0].poses();
+            assert_eq!(poses.len(), 40);
+            assert!((poses[39].pose.x - 3.9).abs() < 1e-12, "{:?}", poses[39]);
+        }
+        for header in ["t x y\n", "t x y z qx qy qz qw\nt x y z qx qy qz qw\n"] {
+            let (_, recording) = drive(header);
+            assert!(recording.is_err_and(|error| error.to_string().contains("walk.tum:")));
+        }
+    }
 }

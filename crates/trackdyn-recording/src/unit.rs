@@ -1,8 +1,12 @@
-//! Units of track speeds, and which of them were mixed up.
+//! Units of track speeds and of positions, and which of them were mixed up.
 
 use std::f64::consts::TAU;
 use std::fmt::{self, Write};
 use std::str::FromStr;
+
+mod pose;
+
+pub use pose::PoseUnit;
 
 /// Unit of the numbers that are speeds of the tracks or of their wheels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -144,8 +148,20 @@ pub(crate) fn error(ratio: f64) -> Option<f64> {
 }
 
 /// The options by which speeds are read that were taken for those of the tracks, and are so many
-/// times those of the poses. Units of wheels need a radius.
+/// times those of the poses, or by which poses are. Units of wheels need a radius.
 pub(crate) fn remedy(ratio: f64) -> String {
+    with_poses(ratio, of_speeds(ratio))
+}
+
+/// What is said of speeds, after what explains this ratio by the positions.
+fn with_poses(ratio: f64, of_speeds: String) -> String {
+    match PoseUnit::remedy(1.0 / ratio, allowed) {
+        Some(of_poses) => format!("{of_poses}; where the poses are right, {of_speeds}"),
+        None => of_speeds,
+    }
+}
+
+fn of_speeds(ratio: f64) -> String {
     let unit = if ratio > 1.0 { nearest(ratio).and_then(|(.., unit)| unit) } else { None };
     let mut text = match unit.filter(|unit| !unit.is_of_wheels()) {
         Some(unit) => format!("read them with --speed-unit {unit}"),
@@ -243,12 +259,17 @@ pub(crate) fn of_wheels(
     if (RADII[0]..=RADII[1]).contains(&fitting) {
         let _ = write!(text, "; --wheel-radius {fitting:.3} would explain it");
     }
-    (mixed_up(ratio), text + "; --wheel-radius is in m per radian, with any gear")
+    text += "; --wheel-radius is in m per radian, with any gear";
+    (mixed_up(ratio), with_poses(ratio, text))
+}
+
+/// Largest factor between a ratio and that of two units.
+fn allowed(unit: f64) -> f64 {
+    if unit < MAX_SLIP { MAX_ERROR_OF_SMALL } else { MAX_ERROR }
 }
 
 fn nearest(size: f64) -> Option<(f64, &'static str, Option<SpeedUnit>)> {
     let off = |unit: f64| (size / unit).max(unit / size);
-    let allowed = |unit: f64| if unit < MAX_SLIP { MAX_ERROR_OF_SMALL } else { MAX_ERROR };
     let near = MIXED.into_iter().filter(|(unit, ..)| off(*unit) <= allowed(*unit));
     near.min_by(|(a, ..), (b, ..)| off(*a).total_cmp(&off(*b)))
 }
@@ -276,6 +297,30 @@ mod tests {
             assert!(text.starts_with("expected m/s of tracks"), "{text}");
         }
         assert_eq!(mixed_up(1.2), None);
+    }
+
+    #[test]
+    fn positions_in_another_unit_are_named_beside_the_speeds() {
+        for (times, name, unit) in [
+            (995.0, "millimetres", "mm"),
+            (100.5, "centimetres", "cm"),
+            (3.25, "feet", "ft"),
+            (39.1, "inches", "in"),
+        ] {
+            let (_, wheels) = of_wheels(1.0 / times, SpeedUnit::RadiansPerSecond, 0.165);
+            let start = format!(
+                "where the track speeds are right, the positions look like {name}: --pose-unit \
+                 {unit} reads them; where the poses are right, expected "
+            );
+            for text in [remedy(1.0 / times), wheels] {
+                assert!(text.starts_with(&start), "{text}");
+            }
+            assert!(!remedy(times).contains("--pose-unit"));
+        }
+        for unit in PoseUnit::ALL {
+            assert_eq!(unit.name().parse(), Ok(unit));
+        }
+        assert!("furlongs".parse::<PoseUnit>().is_err_and(|text| text.contains("mm")));
     }
 
     #[test]

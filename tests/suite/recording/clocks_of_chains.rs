@@ -1,6 +1,7 @@
 //! Clocks and axes of transforms that are composed along a chain.
 
 use super::sources::{COUNT, JOINTS, Message, Topic, assert_poses, bag, options, truth};
+use trackdyn_core::Pose;
 use trackdyn_recording::rosbag::{self, Dating, RosbagOptions};
 use trackdyn_recording::{Axes, Doubt, DoubtKind, Error, Warning};
 
@@ -62,6 +63,36 @@ fn corrections_that_are_stamped_ahead_are_no_other_clock() {
     assert!(!recording.warnings().iter().any(differ), "{:?}", recording.warnings());
     // the first second has no correction yet
     assert_eq!(assert_poses(&recording, 1e-9), COUNT as usize - 10);
+}
+
+/// Odometry that is wrong, and a map that corrects it once in a second and is sent at each step.
+#[test]
+fn poses_between_the_corrections_of_a_map_are_left_out() {
+    let pose = |[x, y, yaw]: [f64; 3]| Pose::new(x, y, yaw);
+    let row = |pose: Pose| [pose.x, pose.y, pose.yaw];
+    let odometry = |step: usize| {
+        let [x, y, yaw] = truth()[step].1;
+        pose([0.9 * x, 0.9 * y, 1.5 * yaw])
+    };
+    for ahead in [0.0, 0.5] {
+        let make = |step: usize, t: f64| {
+            let corrected = step - step % 10;
+            let map = pose(truth()[corrected].1).compose(&odometry(corrected).inverse());
+            let message = Message::new().count(2).header(t + ahead, "map").text("odom");
+            let message = message.pose(row(map)).header(t, "odom").text("base_link");
+            Some(message.pose(row(odometry(step))))
+        };
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = bag(folder.path(), &[JOINTS, ("/tf", TF, &make)]);
+        let recording = rosbag::read(&path, &chained()).expect("a chain");
+        // when the first value was measured is not known
+        assert_eq!(assert_poses(&recording, 1e-9), COUNT as usize / 10 - 1);
+        let is_told = |warning: &Warning| {
+            matches!(warning, Warning::DeadReckoning { corrections: 39, interval, frame, .. }
+                if (interval - 1.0).abs() < 1e-6 && frame == "odom")
+        };
+        assert!(recording.warnings().iter().any(is_told), "{:?}", recording.warnings());
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The rows of a table whose columns are named.
 
 use super::time::Times;
-use super::{Columns, Key, Unit, units};
+use super::{Column, Columns, Key, Unit, units};
 use crate::recording::{Recording, Source, UncheckedRun, Warning};
 use crate::recording::{divide, turn_by_gyroscope, turn_sensor};
 use crate::rosbag::yaw_of_quaternion;
@@ -26,7 +26,7 @@ const TIME: &str = "a number, a date such as 2024-03-31T00:59:30.05 or 31.03.202
 /// [`Error::Options`] for units and a radius that do not go together, those of [`Recording::new`].
 pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Recording, Error> {
     let names: Vec<&str> = columns.columns.values().map(|column| column.name.as_str()).collect();
-    let mut table = Table::open_any(path, &names)?;
+    let mut table = Table::open_any(path, &names)?.of_log(&names);
     let mut has_row = table.advance()?;
     let units = if has_row { units::of_row(columns, &table)? } else { None };
     if units.is_some() {
@@ -47,8 +47,8 @@ pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Re
         let message = "no rows below the header".to_owned();
         return Err(Error::Empty { path: path.to_owned(), message });
     }
-    let runs = rows(table, columns, scales, options.gyro_in_degrees)?;
-    let mut warnings = Vec::new();
+    let runs = rows(&mut table, columns, scales, options)?;
+    let mut warnings = table.left_out();
     let mut runs = divide(runs, &mut warnings);
     let gyroscope = columns.columns.get(&Key::Gyro);
     if let Some(gyroscope) = gyroscope.filter(|_| !columns.has_poses()) {
@@ -68,10 +68,10 @@ pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Re
 
 /// The rows of all runs, from the current one on.
 fn rows(
-    mut table: Table,
+    table: &mut Table,
     columns: &Columns,
     scales: [f64; 2],
-    gyro_in_degrees: bool,
+    options: &TableOptions,
 ) -> Result<Vec<UncheckedRun>, Error> {
     let at = |key: Key| {
         let column = columns.columns.get(&key)?;
@@ -82,12 +82,16 @@ fn rows(
     let quaternion = [Key::Qx, Key::Qy, Key::Qz, Key::Qw].map(at);
     let run = at(Key::Run).map(|(place, _)| place);
     let places = [t, x, y, left, right, yaw].map(|of| of.map(|(place, _)| place));
-    let factors = [t, x, y].map(|of| of.map_or(1.0, |(_, column)| column.factor()));
+    let of_poses = options.pose_unit.factor();
+    let factors = [(t, 1.0), (x, of_poses), (y, of_poses)].map(|(of, open)| {
+        let unit = |column: &Column| if column.unit == Unit::Open { open } else { 1.0 };
+        of.map_or(1.0, |(_, column)| unit(column) * column.factor())
+    });
     let yaw = yaw.map(|(place, column)| (place, column.unit, column.factor()));
     let quaternion = quaternion.map(|of| of.map(|(place, column)| (place, column.sign)));
     let gyroscope = at(Key::Gyro).map(|(place, column)| {
         let is_open = column.unit == Unit::Open;
-        let unit = if is_open && gyro_in_degrees { TAU / 360.0 } else { 1.0 };
+        let unit = if is_open && options.gyro_in_degrees { TAU / 360.0 } else { 1.0 };
         (place, unit * column.factor())
     });
     let mut runs: BTreeMap<i64, UncheckedRun> = BTreeMap::new();

@@ -85,7 +85,7 @@ fn split<S: Sample>(path: &Path, columns: &[Column]) -> Result<Rows<S>, Error> {
     let others = others.filter(|(at, _)| !known.contains(at) && Some(*at) != run_column);
     let all = Series { samples, extra: others.map(|(_, column)| column.clone()).collect() };
     let runs = rows_of.into_iter().map(|(id, rows)| (id, all.part(&rows))).collect();
-    Ok(Rows { has_runs: run_column.is_some(), runs })
+    Ok(Rows { has_runs: run_column.is_some(), runs, warnings: Vec::new() })
 }
 
 fn numbers<'a>(path: &Path, columns: &'a [Column], at: usize) -> Result<&'a [f64], Error> {

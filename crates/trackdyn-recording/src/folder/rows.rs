@@ -1,6 +1,7 @@
 //! The rows of one CSV file, sorted into runs.
 
 use crate::Error;
+use crate::recording::Warning;
 use crate::sample::{Cells, Column, Sample, Series};
 use crate::table::{Table, number};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -12,6 +13,8 @@ pub(crate) struct Rows<S> {
     pub(crate) has_runs: bool,
     /// The series by the number of their run.
     pub(crate) runs: BTreeMap<i64, Series<S>>,
+    /// What was left out.
+    pub(crate) warnings: Vec<Warning>,
 }
 
 /// Reads a file with the columns of `S`, maybe `run`, and any others.
@@ -36,7 +39,7 @@ enum Attempt<S> {
 
 /// One pass over the file that takes all further columns but `texts` for numbers.
 fn attempt<S: Sample>(path: &Path, texts: &BTreeSet<usize>) -> Result<Attempt<S>, Error> {
-    let mut table = Table::open(path, S::COLUMNS)?;
+    let mut table = Table::open(path, S::COLUMNS)?.of_log(S::COLUMNS);
     let known: Vec<usize> = S::COLUMNS.iter().filter_map(|name| table.column(name)).collect();
     let run_column = table.column("run");
     let further: Vec<usize> = (0..table.header().len())
@@ -98,5 +101,6 @@ fn attempt<S: Sample>(path: &Path, texts: &BTreeSet<usize>) -> Result<Attempt<S>
         return Err(Error::Empty { path: path.to_owned(), message });
     }
     let runs = ids.into_iter().zip(series).collect();
-    Ok(Attempt::Done(Rows { has_runs: run_column.is_some(), runs }))
+    let (has_runs, warnings) = (run_column.is_some(), table.left_out());
+    Ok(Attempt::Done(Rows { has_runs, runs, warnings }))
 }

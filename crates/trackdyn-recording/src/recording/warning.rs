@@ -54,6 +54,26 @@ pub enum Warning {
         /// Messages that were read before.
         messages: u64,
     },
+    /// The end of a table that is cut off or is no data.
+    EndLeftOut {
+        /// The file.
+        path: PathBuf,
+        /// Line of its first row.
+        line: u64,
+        /// Its rows.
+        rows: usize,
+        /// Its bytes, without separators.
+        bytes: usize,
+    },
+    /// The header of a table that stands there again below.
+    HeadersLeftOut {
+        /// The file.
+        path: PathBuf,
+        /// How often.
+        count: usize,
+        /// Line of the first of them.
+        line: u64,
+    },
     /// Chunks of a bag that are damaged: none of their messages is used; those around them are.
     ChunksDropped {
         /// The file.
@@ -74,6 +94,21 @@ pub enum Warning {
     OwnOdometry {
         /// Their source.
         poses: String,
+    },
+    /// Poses along a chain of transforms that are odometry between corrections: left out.
+    DeadReckoning {
+        /// The transform that is corrected, such as map → odom.
+        corrected: String,
+        /// Its child frame, which odometry moves the robot in.
+        frame: String,
+        /// Poses at its corrections, which are kept.
+        corrections: usize,
+        /// Usual time from one to the next, s.
+        interval: f64,
+        /// The transform that moves in between.
+        odometry: String,
+        /// Poses in between.
+        left_out: usize,
     },
     /// Tracks and poses of a run that share no time.
     NoCommonTime {
@@ -269,6 +304,18 @@ impl fmt::Display for Warning {
             Self::Damaged { path, message, messages } => {
                 write!(f, "{}: {message}; the {messages} messages before are used", path.display())
             }
+            Self::EndLeftOut { path, line, rows, bytes } => write!(
+                f,
+                "{}:{line}: the table ends in {} ({bytes} bytes) cut off or without data, left out",
+                path.display(),
+                counted(*rows, "row")
+            ),
+            Self::HeadersLeftOut { path, count, line } => write!(
+                f,
+                "{}:{line}: the header stands there again ({}), left out",
+                path.display(),
+                counted(*count, "time")
+            ),
             Self::ChunksDropped { path, chunks, seconds, problem } => write!(
                 f,
                 "{}: damaged, and read around the damage: {chunks} chunks are left out, \
@@ -285,6 +332,15 @@ impl fmt::Display for Warning {
                 "{poses}: if it comes from the tracks themselves, it agrees with any model of \
                  them: poses have to come from something else"
             ),
+            Self::DeadReckoning { corrected, frame, corrections, interval, odometry, left_out } => {
+                write!(
+                    f,
+                    "{corrected} is corrected {corrections} times, usually every {interval:.2} s: \
+                 poses are measured there; {left_out} in between are dead reckoning by \
+                 {odometry}, left out (where that is measured by something else than the tracks, \
+                 --parent-frame {frame} takes it alone)"
+                )
+            }
             Self::NoCommonTime { run, offset } => write!(
                 f,
                 "run {run}: tracks and poses share no time: the first pose is stamped {offset:.3} \

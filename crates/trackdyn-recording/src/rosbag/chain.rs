@@ -3,7 +3,8 @@
 //! The poses stand at the stamps of the link that changes most often. The other links are
 //! interpolated between their neighbouring stamps, as tf2 does it (translation along a line,
 //! rotation about one axis), and never beyond them: poses there are left out. Links of a topic that
-//! ends in `_static` hold at all times.
+//! ends in `_static` hold at all times. Where the outermost link is corrected less often than the
+//! others move, only the poses at its [`corrections`] are measured: the others are left out.
 
 use super::clock::{By, Clock, decide};
 use super::date::{Received, Stamped, dated};
@@ -20,6 +21,15 @@ use crate::recording::Warning;
 use nalgebra::Isometry3;
 use std::fmt::Write;
 use std::path::Path;
+use trackdyn_core::robust::usual_interval;
+
+mod corrections;
+
+use corrections::{MIN_CORRECTIONS, changes, corrections};
+
+/// Of so many poses, at most one lies between corrections where these come at every stamp: some
+/// messages are lost.
+const MAX_LOST: usize = 10;
 
 /// Poses along a chain, and what was done for them.
 pub(super) struct Chain {
@@ -59,33 +69,30 @@ pub(super) fn read(
     // The damage of the files was told when their frames were read.
     storage::scan(path, &mut collector)?;
     let (by, mut warnings) = dating(&collector.links, tracks, options);
+    let corrected = Corrected::of(&collector.links, by);
     let series = collector.links.into_iter().map(|link| Series::of(link, by, &mut warnings));
     let series: Vec<Series> = series.collect();
     let moving = || series.iter().filter(|link| !link.is_static);
     let Some(leading) = moving().max_by_key(|link| link.changes()) else {
         return Err(refuse(format!("nothing moves between {parent:?} and {child:?}")));
     };
-    let mut left_out = 0_usize;
-    let mut poses = Vec::new();
-    let mut attitude = Attitude::default();
-    for &(stamp, _) in &leading.moments {
-        let composed = series.iter().try_fold(Isometry3::identity(), |before, link| {
-            let transform = link.at(stamp)?;
-            Some(before * if link.hop.inverse { transform.inverse() } else { transform })
-        });
-        match composed {
-            Some(transform) => {
-                attitude.note(transform.rotation.coords.into());
-                poses.push((stamp, planar(&transform)));
-            }
-            None => left_out += 1,
-        }
-    }
-    if poses.is_empty() {
+    let stamps = leading.moments.iter().map(|(stamp, _)| *stamp);
+    let unit = options.pose_unit.factor();
+    let all = Composed::of(&series, unit, stamps.map(|stamp| (stamp, None)));
+    if all.poses.is_empty() {
         return Err(refuse(format!("the transforms from {parent:?} to {child:?} share no time")));
     }
-    let way: Vec<String> = series.iter().map(Series::to_string).collect();
-    let mut taken = format!("{child} in {parent} by {}", way.join(", "));
+    let links: Vec<String> = series.iter().map(Series::to_string).collect();
+    let way = format!("{child} in {parent} by {}", links.join(", "));
+    if let Some((measured, told)) =
+        corrected.and_then(|one| one.measured(&way, &series, unit, &all))
+    {
+        warnings.extend(told);
+        let Composed { poses, attitude, .. } = measured;
+        return Ok(Chain { poses, attitude, by, warnings });
+    }
+    let Composed { poses, attitude, left_out } = all;
+    let mut taken = way;
     let _ = write!(taken, "; at the stamps of {}, the others interpolated", leading.name());
     if left_out > 0 {
         let _ = write!(taken, "; {left_out} stamps that a link does not reach are left out");
@@ -94,6 +101,114 @@ pub(super) fn read(
     let odometry = moving().find(|link| is_of_odometry(&link.hop.link.parent));
     warnings.extend(odometry.map(|link| Warning::OwnOdometry { poses: link.name() }));
     Ok(Chain { poses, attitude, by, warnings })
+}
+
+/// Poses along a chain at some stamps.
+#[derive(Default)]
+struct Composed {
+    poses: Vec<Stamped<[f64; 3]>>,
+    attitude: Attitude,
+    /// Stamps that a link does not reach.
+    left_out: usize,
+}
+
+impl Composed {
+    /// At these stamps; where one has it, with this transform of the link at this place. A
+    /// transform has so many metres per number.
+    fn of<'a>(
+        series: &[Series],
+        unit: f64,
+        stamps: impl Iterator<Item = (i64, Option<(usize, &'a Isometry3<f64>)>)>,
+    ) -> Self {
+        let mut all = Self::default();
+        for (stamp, known) in stamps {
+            let mut links = series.iter().enumerate();
+            let composed = links.try_fold(Isometry3::identity(), |before, (place, link)| {
+                let known = known.filter(|(of, _)| *of == place).map(|(_, transform)| *transform);
+                let transform = known.or_else(|| link.at(stamp))?;
+                Some(before * if link.hop.inverse { transform.inverse() } else { transform })
+            });
+            let Some(transform) = composed else {
+                all.left_out += 1;
+                continue;
+            };
+            all.attitude.note(transform.rotation.coords.into());
+            let [x, y, yaw] = planar(&transform);
+            all.poses.push((stamp, [unit * x, unit * y, yaw]));
+        }
+        all
+    }
+}
+
+/// A link of a map that is corrected, above links of odometry.
+struct Corrected {
+    /// Its place, its name, and its child frame.
+    place: usize,
+    name: String,
+    frame: String,
+    /// Name of the link of odometry that changes most.
+    odometry: String,
+    /// The values of the corrected link, when they were measured.
+    values: Vec<Stamped<Isometry3<f64>>>,
+}
+
+impl Corrected {
+    /// The outermost link that is corrected; none where nothing moves between it and the body, or
+    /// where the way leads up to a frame and down again: no map is above both ends then.
+    fn of(links: &[Link], by: By) -> Option<Self> {
+        let is_up = links.first()?.hop.inverse;
+        if links.iter().any(|link| link.hop.inverse != is_up) {
+            return None;
+        }
+        let moves = |place: &usize| !links[*place].is_static && links[*place].changes() > 0;
+        let mut moving: Vec<usize> = (0..links.len()).filter(moves).collect();
+        if is_up {
+            moving.reverse();
+        }
+        let count = |place: &usize| changes(&links[*place].received).count();
+        let first = moving.iter().position(|place| count(place) >= MIN_CORRECTIONS)?;
+        let place = moving[first];
+        let below = moving[first + 1..].iter().map(|place| &links[*place]);
+        let odometry = below.max_by_key(|link| link.changes())?;
+        Some(Self {
+            place,
+            name: links[place].hop.link.name(),
+            frame: links[place].hop.link.child.clone(),
+            odometry: odometry.hop.link.name(),
+            values: corrections(&links[place].received, &odometry.received, by),
+        })
+    }
+
+    /// The poses at the corrections, and what is said of the others; none where almost all poses
+    /// stand there, or too few do.
+    fn measured(
+        self,
+        way: &str,
+        series: &[Series],
+        unit: f64,
+        all: &Composed,
+    ) -> Option<(Composed, [Warning; 2])> {
+        let stamps = self.values.iter().map(|(stamp, value)| (*stamp, Some((self.place, value))));
+        let measured = Composed::of(series, unit, stamps);
+        let [corrections, of] = [measured.poses.len(), all.poses.len()];
+        let left_out = of.saturating_sub(corrections);
+        if corrections < MIN_CORRECTIONS || MAX_LOST * left_out <= of {
+            return None;
+        }
+        let interval = usual_interval(measured.poses.iter().map(|(stamp, _)| seconds(*stamp)));
+        let Self { name, frame, odometry, .. } = self;
+        let taken = format!("{way}; where {name} is corrected");
+        let chosen = Warning::Chosen { what: "poses", taken };
+        let told = Warning::DeadReckoning {
+            corrected: name,
+            frame,
+            corrections,
+            interval,
+            odometry,
+            left_out,
+        };
+        Some((measured, [chosen, told]))
+    }
 }
 
 /// What dates all messages, by the clocks of the tracks and of the links. The link that changes
@@ -132,7 +247,7 @@ impl Link {
     }
 
     fn clock(&self) -> Clock {
-        let name = format!("{} ({} -> {})", self.topic, self.hop.link.parent, self.hop.link.child);
+        let name = format!("{} ({})", self.topic, self.hop.link.name());
         Clock::of(&name, &self.received)
     }
 }
@@ -160,7 +275,7 @@ impl Series {
     }
 
     fn name(&self) -> String {
-        format!("{} -> {}", self.hop.link.parent, self.hop.link.child)
+        self.hop.link.name()
     }
 
     /// How often it is reported to have changed: some links are sent again and again as they are.

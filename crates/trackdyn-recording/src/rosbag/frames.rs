@@ -68,6 +68,10 @@ impl Link {
     pub(super) fn is(&self, parent: &str, child: &str) -> bool {
         self.parent == bare(parent) && self.child == bare(child)
     }
+
+    pub(super) fn name(&self) -> String {
+        format!("{} -> {}", self.parent, self.child)
+    }
 }
 
 impl Frames {

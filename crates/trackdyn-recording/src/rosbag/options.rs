@@ -4,7 +4,7 @@ use super::topic::STATIC;
 use crate::doubt::DoubtKind;
 use crate::recording::PoseAxes;
 use crate::table_options::TableOptions;
-use crate::unit::SpeedUnit;
+use crate::unit::{PoseUnit, SpeedUnit};
 use std::path::PathBuf;
 
 /// Topics, joints and frames; what is left open is taken where the bag leaves no choice.
@@ -55,6 +55,8 @@ pub struct RosbagOptions {
     pub msg_dir: Option<PathBuf>,
     /// What dates the messages.
     pub dated_by: Dating,
+    /// Unit of the positions of poses; fixes of satellite navigation have none.
+    pub pose_unit: PoseUnit,
     /// Axes in which the poses are told.
     pub pose_axes: PoseAxes,
     /// Yaw of the x axis of the pose sensor on the robot, rad: π where it faces backwards.
@@ -76,6 +78,7 @@ impl RosbagOptions {
         TableOptions {
             speed_unit: self.speed_unit,
             wheel_radius: self.wheel_radius,
+            pose_unit: self.pose_unit,
             pose_axes: self.pose_axes,
             mount_yaw: self.mount_yaw,
             gyro_in_degrees: self.gyro_in_degrees,

@@ -15,6 +15,11 @@ pub(crate) fn number(text: &[u8]) -> Option<f64> {
     ABSENT.contains(&word.as_str()).then_some(f64::NAN)
 }
 
+/// A number as any table has it, with a decimal comma or without.
+pub(super) fn any_number(text: &[u8]) -> Option<f64> {
+    number(text).or_else(|| with_commas(text, true))
+}
+
 /// A number that may have a decimal comma, or separators between thousands; none where it has one
 /// comma that may be either.
 pub(super) fn with_commas(text: &[u8], are_decimal: bool) -> Option<f64> {

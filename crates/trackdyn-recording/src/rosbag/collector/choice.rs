@@ -109,8 +109,9 @@ impl Sources<'_> {
             child => format!("{} of {child:?} in {:?}", key.topic, key.parent),
         };
         let odometry = poses.keys().find(|key| self.may_be_odometry(key)).map(name);
-        let chosen = self.only(&wanted, poses, warnings, name)?;
+        let mut chosen = self.only(&wanted, poses, warnings, name)?;
         self.check_index(&chosen.0.topic)?;
+        self.in_metres(&chosen.0.topic, &mut chosen.1);
         if let Some(poses) = odometry {
             warnings.extend(gyroscopes.first().map(|imu| Warning::Chosen {
                 what: "poses",
@@ -119,6 +120,19 @@ impl Sources<'_> {
             warnings.push(Warning::OwnOdometry { poses });
         }
         Ok(chosen)
+    }
+
+    /// Takes positions from the unit of the user; those of fixes are made in metres.
+    fn in_metres(&self, topic: &str, poses: &mut Rows) {
+        let is_fix = |of: &&Topic| of.name == topic && of.layout() == Some(Layout::Fix);
+        if self.seen.iter().any(|of| is_fix(&of)) {
+            return;
+        }
+        for pose in poses {
+            let [x, y, _] = &mut pose.value;
+            *x *= self.options.pose_unit.factor();
+            *y *= self.options.pose_unit.factor();
+        }
     }
 
     /// Refuses a number of a pose for messages that have one pose each.

@@ -40,7 +40,7 @@ pub(crate) use run::turn_sensor;
 pub use run::{PoseAxes, Run, UncheckedRun};
 pub(crate) use set_back::divide;
 pub use source::{BagNames, Format, Source};
-pub use warning::{Course, Warning, known_offset};
+pub use warning::{Course, DeadReckoning, Warning, known_offset};
 
 /// Track speeds, poses and, where there are any, readings of an IMU.
 ///

@@ -112,8 +112,8 @@ impl Table {
         Ok(Self { path, reader, since_row, rows, header, has_spare, row, ends, has_commas, above })
     }
 
-    /// The same table as one that a program wrote until it was switched off: its end may be cut off
-    /// or have text, and its header may stand there again. These are left out. Cells of the columns
+    /// This table as one that a program wrote until it was switched off: its end may be cut off or
+    /// have text, and its header may stand there again. These are left out. Cells of the columns
     /// given have numbers or times.
     pub(crate) fn of_log(mut self, columns: &[&str]) -> Self {
         let places = columns.iter().filter_map(|name| self.column(name)).collect();

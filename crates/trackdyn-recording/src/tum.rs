@@ -2,8 +2,8 @@
 //!
 //! A line is `t x y z qx qy qz qw`, blanks between, `#` before a remark
 //! (<https://cvg.cit.tum.de/data/datasets/rgbd-dataset/file_formats>); names of the columns may
-//! stand above. The motion is planar: x, y and the yaw of the quaternion count, the rest is dropped;
-//! poses of a camera are refused.
+//! stand above. The motion is planar: x, y and the yaw of the quaternion count, the rest is
+//! dropped; poses of a camera are refused.
 
 use crate::attitude::Attitude;
 use crate::doubt::{Axes, Doubt, DoubtKind};
@@ -144,14 +144,15 @@ fn parse_row(
 mod tests {
     use super::*;
     use crate::PoseUnit;
+    use std::fmt::Write;
 
     /// A drive of 4 s: a trajectory in mm, and the speeds of its tracks.
     fn drive(header: &str) -> (tempfile::TempDir, Result<Recording, Error>) {
         let (mut trajectory, mut tracks) = (header.to_owned(), "t,v_left,v_right\n".to_owned());
         for k in 0..40 {
             let (s, tenth) = (k / 10, k % 10);
-            trajectory += &format!("{s}.{tenth} {} 0 0 0 0 0 1\n", 100 * k);
-            tracks += &format!("{s}.{tenth},1,1\n");
+            let _ = writeln!(trajectory, "{s}.{tenth} {} 0 0 0 0 0 1", 100 * k);
+            let _ = writeln!(tracks, "{s}.{tenth},1,1");
         }
         let folder = tempfile::tempdir().expect("a temporary folder");
         let path = |name: &str| folder.path().join(name);

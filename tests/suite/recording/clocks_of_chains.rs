@@ -88,8 +88,8 @@ fn poses_between_the_corrections_of_a_map_are_left_out() {
         // when the first value was measured is not known
         assert_eq!(assert_poses(&recording, 1e-9), COUNT as usize / 10 - 1);
         let is_told = |warning: &Warning| {
-            matches!(warning, Warning::DeadReckoning { corrections: 39, interval, frame, .. }
-                if (interval - 1.0).abs() < 1e-6 && frame == "odom")
+            matches!(warning, Warning::DeadReckoning(of) if of.corrections == 39
+                && (of.interval - 1.0).abs() < 1e-6 && of.frame == "odom")
         };
         assert!(recording.warnings().iter().any(is_told), "{:?}", recording.warnings());
     }

@@ -7,7 +7,7 @@ use crate::doubt::Doubt;
 use crate::sample::ImuSample;
 use std::f64::consts::TAU;
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use trackdyn_core::lines::counted;
 use trackdyn_core::robust::usual_interval;
 
@@ -24,6 +24,36 @@ pub struct Course {
     pub scale_deviation: f64,
     /// Scatter of the courses about the yaw, rad.
     pub scatter: f64,
+}
+
+/// Poses along a chain of transforms that are odometry between corrections.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DeadReckoning {
+    /// The transform that is corrected, such as map → odom.
+    pub corrected: String,
+    /// Its child frame, which odometry moves the robot in.
+    pub frame: String,
+    /// Poses at its corrections, which are kept.
+    pub corrections: usize,
+    /// Usual time from one to the next, s.
+    pub interval: f64,
+    /// The transform that moves in between.
+    pub odometry: String,
+    /// Poses in between.
+    pub left_out: usize,
+}
+
+impl fmt::Display for DeadReckoning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { corrected, frame, corrections, interval, odometry, left_out } = self;
+        write!(
+            f,
+            "{corrected} is corrected {corrections} times, usually every {interval:.2} s: poses \
+             are measured there; {left_out} in between are dead reckoning by {odometry}, left out \
+             (where that is measured by something else than the tracks, --parent-frame {frame} \
+             takes it alone)"
+        )
+    }
 }
 
 /// Relative error of the scale of a gyroscope that nothing checks, 1: the standard deviation that
@@ -96,20 +126,7 @@ pub enum Warning {
         poses: String,
     },
     /// Poses along a chain of transforms that are odometry between corrections: left out.
-    DeadReckoning {
-        /// The transform that is corrected, such as map → odom.
-        corrected: String,
-        /// Its child frame, which odometry moves the robot in.
-        frame: String,
-        /// Poses at its corrections, which are kept.
-        corrections: usize,
-        /// Usual time from one to the next, s.
-        interval: f64,
-        /// The transform that moves in between.
-        odometry: String,
-        /// Poses in between.
-        left_out: usize,
-    },
+    DeadReckoning(DeadReckoning),
     /// Tracks and poses of a run that share no time.
     NoCommonTime {
         /// The run.
@@ -304,18 +321,10 @@ impl fmt::Display for Warning {
             Self::Damaged { path, message, messages } => {
                 write!(f, "{}: {message}; the {messages} messages before are used", path.display())
             }
-            Self::EndLeftOut { path, line, rows, bytes } => write!(
-                f,
-                "{}:{line}: the table ends in {} ({bytes} bytes) cut off or without data, left out",
-                path.display(),
-                counted(*rows, "row")
-            ),
-            Self::HeadersLeftOut { path, count, line } => write!(
-                f,
-                "{}:{line}: the header stands there again ({}), left out",
-                path.display(),
-                counted(*count, "time")
-            ),
+            Self::EndLeftOut { path, line, rows, bytes } => {
+                end_left_out(f, path, *line, [*rows, *bytes])
+            }
+            Self::HeadersLeftOut { path, count, line } => headers_left_out(f, path, *line, *count),
             Self::ChunksDropped { path, chunks, seconds, problem } => write!(
                 f,
                 "{}: damaged, and read around the damage: {chunks} chunks are left out, \
@@ -332,15 +341,7 @@ impl fmt::Display for Warning {
                 "{poses}: if it comes from the tracks themselves, it agrees with any model of \
                  them: poses have to come from something else"
             ),
-            Self::DeadReckoning { corrected, frame, corrections, interval, odometry, left_out } => {
-                write!(
-                    f,
-                    "{corrected} is corrected {corrections} times, usually every {interval:.2} s: \
-                 poses are measured there; {left_out} in between are dead reckoning by \
-                 {odometry}, left out (where that is measured by something else than the tracks, \
-                 --parent-frame {frame} takes it alone)"
-                )
-            }
+            Self::DeadReckoning(of) => of.fmt(f),
             Self::NoCommonTime { run, offset } => write!(
                 f,
                 "run {run}: tracks and poses share no time: the first pose is stamped {offset:.3} \
@@ -440,6 +441,30 @@ fn from_course(f: &mut fmt::Formatter, topic: &str, imu: &str, of: &Course) -> f
         of.scale,
         of.scale_deviation
     )
+}
+
+fn end_left_out(
+    f: &mut fmt::Formatter<'_>,
+    path: &Path,
+    line: u64,
+    [rows, bytes]: [usize; 2],
+) -> fmt::Result {
+    write!(
+        f,
+        "{}:{line}: the table ends in {} ({bytes} bytes) cut off or without data, left out",
+        path.display(),
+        counted(rows, "row")
+    )
+}
+
+fn headers_left_out(
+    f: &mut fmt::Formatter<'_>,
+    path: &Path,
+    line: u64,
+    count: usize,
+) -> fmt::Result {
+    let times = counted(count, "time");
+    write!(f, "{}:{line}: the header stands there again ({times}), left out", path.display())
 }
 
 fn from_twist(f: &mut fmt::Formatter<'_>, topic: &str, separation: f64) -> fmt::Result {

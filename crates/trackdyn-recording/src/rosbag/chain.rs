@@ -17,7 +17,7 @@ use super::topic::{Layout, Topic};
 use super::visitor::Visitor;
 use crate::Error;
 use crate::attitude::Attitude;
-use crate::recording::Warning;
+use crate::recording::{DeadReckoning, Warning};
 use nalgebra::Isometry3;
 use std::fmt::Write;
 use std::path::Path;
@@ -199,14 +199,14 @@ impl Corrected {
         let Self { name, frame, odometry, .. } = self;
         let taken = format!("{way}; where {name} is corrected");
         let chosen = Warning::Chosen { what: "poses", taken };
-        let told = Warning::DeadReckoning {
+        let told = Warning::DeadReckoning(DeadReckoning {
             corrected: name,
             frame,
             corrections,
             interval,
             odometry,
             left_out,
-        };
+        });
         Some((measured, [chosen, told]))
     }
 }

@@ -45,7 +45,7 @@ impl Ends {
 
     /// Whether a row is the header again.
     pub(super) fn is_header(&self, row: &ByteRecord) -> bool {
-        let names = self.header.iter().map(|name| name.as_bytes());
+        let names = self.header.iter().map(String::as_bytes);
         row.len() >= self.header.len()
             && names.zip(row).all(|(name, cell)| name == cell.trim_ascii())
     }

@@ -12,8 +12,8 @@ use crate::stderr::note;
 use crate::wording::option;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
-use trackdyn::recording::BagOptions;
-use trackdyn::recording::{Columns, Dating, DoubtKind, JointSignal, PoseAxes, SpeedUnit};
+use trackdyn::recording::{BagOptions, Columns, Dating, DoubtKind, JointSignal};
+use trackdyn::recording::{PoseAxes, PoseUnit, SpeedUnit};
 use trackdyn::{ActiveEffect, Circumstance, Part, ReadOptions, Recording, RunList, Symmetry};
 use trackdyn::{Effects, Pose, Stage};
 
@@ -164,6 +164,9 @@ pub struct RecordingOptions {
     /// Bag: what dates its messages [default: their headers, or the log where clocks differ]
     #[arg(long, value_name = "CLOCK")]
     dated_by: Option<DatedBy>,
+    /// Unit of x and y of the poses: m, mm, cm, ft, in; not of satellite fixes [default: m]
+    #[arg(long, value_name = "UNIT")]
+    pose_unit: Option<PoseUnit>,
     /// Axes of the poses: ned has y to the right of x and counts yaw clockwise [default: ros]
     #[arg(long, value_name = "AXES")]
     pose_axes: Option<Axes>,
@@ -286,6 +289,7 @@ impl RecordingOptions {
                     Some(DatedBy::Header) => Dating::Header,
                     Some(DatedBy::Log) => Dating::Log,
                 },
+                pose_unit: self.pose_unit.unwrap_or_default(),
                 pose_axes: match self.pose_axes {
                     None | Some(Axes::Ros) => PoseAxes::Ros,
                     Some(Axes::Ned) => PoseAxes::NorthEastDown,

@@ -1,7 +1,7 @@
 //! Command lines for a user to copy.
 
 use trackdyn::crates::core::rounding::Digits;
-use trackdyn::recording::{Dating, JointSignal, PoseAxes, SpeedUnit};
+use trackdyn::recording::{Dating, JointSignal, PoseAxes, PoseUnit, SpeedUnit};
 use trackdyn::{Part, ReadOptions};
 
 /// A word as a POSIX shell takes it for one: quoted where it has to be.
@@ -80,6 +80,8 @@ pub fn reading(options: &ReadOptions, needs_radius: bool) -> Vec<String> {
             Dating::Log => Some("log"),
         },
     );
+    let unit = bag.pose_unit;
+    add("pose-unit", (unit != PoseUnit::Metres).then_some(unit.name()));
     add("pose-axes", (bag.pose_axes != PoseAxes::Ros).then_some(bag.pose_axes.name()));
     let yaw = bag.mount_yaw.map(|yaw| degrees(yaw).to_string());
     add("mount-yaw", yaw.as_deref());

@@ -10,7 +10,7 @@ use pyo3::types::PyDict;
 use std::path::PathBuf;
 use trackdyn::crates::estimate::Clock;
 use trackdyn::inspect::{Content, Driving, Verdict};
-use trackdyn::recording::{BagOptions, PoseAxes, Topic};
+use trackdyn::recording::{BagOptions, PoseAxes, PoseUnit, Topic};
 use trackdyn::{InspectSettings, Inspection, ReadOptions};
 
 /// Judges a recording; all options are given.
@@ -151,6 +151,9 @@ fn given<'py>(py: Python<'py>, options: &ReadOptions) -> PyResult<Bound<'py, PyD
         if let Some(number) = number {
             dict.set_item(name, number)?;
         }
+    }
+    if bag.pose_unit != PoseUnit::Metres {
+        dict.set_item("pose_unit", bag.pose_unit.name())?;
     }
     if bag.pose_axes != PoseAxes::Ros {
         dict.set_item("pose_axes", bag.pose_axes.name())?;

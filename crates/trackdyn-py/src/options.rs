@@ -32,6 +32,7 @@ pub struct Reading {
     speed_unit: Option<String>,
     msg_dir: Option<PathBuf>,
     dated_by: Option<String>,
+    pose_unit: Option<String>,
     pose_axes: Option<String>,
     mount_yaw: Option<f64>,
     gyro_unit: Option<String>,
@@ -54,6 +55,7 @@ impl Reading {
             self.pose_axes,
             &[("ros", PoseAxes::Ros), ("ned", PoseAxes::NorthEastDown)],
         )?;
+        let pose_unit = self.pose_unit.map(|text| parsed("pose_unit", &text));
         let accepted = self.accept.into_iter().map(|doubt| parsed("accept", &doubt));
         Ok(ReadOptions {
             tracks: self.tracks,
@@ -76,6 +78,7 @@ impl Reading {
                 speed_unit: self.speed_unit.map(|text| parsed("speed_unit", &text)).transpose()?,
                 msg_dir: self.msg_dir,
                 dated_by: dated_by.unwrap_or_default(),
+                pose_unit: pose_unit.transpose()?.unwrap_or_default(),
                 pose_axes: pose_axes.unwrap_or_default(),
                 mount_yaw: self.mount_yaw,
                 gyro_in_degrees: in_degrees.unwrap_or_default(),

@@ -12,7 +12,7 @@ pub use options::ReadOptions;
 pub use part::Part;
 pub use points::PointsTable;
 pub use trackdyn_recording::rosbag::{Dating, JointSignal};
-pub use trackdyn_recording::{Columns, DoubtKind, PoseAxes, PoseFrame, SpeedUnit};
+pub use trackdyn_recording::{Columns, DoubtKind, PoseAxes, PoseFrame, PoseUnit, SpeedUnit};
 
 use crate::Error;
 use std::path::{Path, PathBuf};
@@ -67,7 +67,7 @@ impl Recording {
             Seen::Motion(columns::read(path, columns, &options.bag.of_tables())?)
         } else if let Some(table) = Self::points_file(path) {
             options.refuse_for_points(&table)?;
-            Seen::Points(PointsTable::read(&table)?)
+            Seen::Points(PointsTable::read(&table, &options.bag.of_tables())?)
         } else {
             Seen::Motion(motion(path, options)?)
         };

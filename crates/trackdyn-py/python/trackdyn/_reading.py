@@ -32,6 +32,7 @@ def reading(
     speed_unit: str | None = None,
     msg_dir: str | os.PathLike[str] | None = None,
     dated_by: str | None = None,
+    pose_unit: str | None = None,
     pose_axes: str | None = None,
     mount_yaw: float | None = None,
     gyro_unit: str | None = None,
@@ -52,6 +53,7 @@ def reading(
             "twist_topic": twist_topic,
             "speed_unit": speed_unit,
             "dated_by": dated_by,
+            "pose_unit": pose_unit,
             "pose_axes": pose_axes,
             "gyro_unit": gyro_unit,
         },
@@ -114,6 +116,8 @@ def read_recording(path: str | os.PathLike[str], **options: Any) -> Recording:
         Folder of definitions of messages, for signals of a bag that has none.
     dated_by : {"header", "log"}
         Of a bag: what dates its messages.
+    pose_unit : {"m", "mm", "cm", "ft", "in"}
+        Unit of x and y of the poses; not of satellite fixes.
     pose_axes : {"ros", "ned"}
         Axes of the poses: of ned (north, east, down), y points right and yaw counts clockwise.
     mount_yaw : float

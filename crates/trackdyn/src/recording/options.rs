@@ -4,7 +4,7 @@ use super::BagOptions;
 use crate::Error;
 use std::path::{Path, PathBuf};
 use trackdyn_recording::rosbag::{Dating, JointSignal};
-use trackdyn_recording::{Columns, PoseAxes};
+use trackdyn_recording::{Columns, PoseAxes, PoseUnit};
 
 /// How a recording is read. By default a bag is read by what it leaves no choice in.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -18,14 +18,13 @@ pub struct ReadOptions {
 }
 
 impl ReadOptions {
-    /// Names of the options that are set, all of which are about recordings of motion.
+    /// Names of the options that are set and of which a table of steady points has no use.
     pub fn given(&self) -> Vec<&'static str> {
         let bag = &self.bag;
         let options = [
             ("tracks", self.tracks.is_some()),
             ("columns", self.columns.is_some()),
-            ("speed_unit", bag.speed_unit.is_some()),
-            ("wheel_radius", bag.wheel_radius.is_some()),
+            ("pose_unit", bag.pose_unit != PoseUnit::Metres),
             ("pose_axes", bag.pose_axes != PoseAxes::Ros),
             ("mount_yaw", bag.mount_yaw.is_some()),
             ("gyro_unit", bag.gyro_in_degrees),

@@ -4,7 +4,7 @@ use crate::Error;
 use std::path::{Path, PathBuf};
 use trackdyn_core::input;
 use trackdyn_core::output::fingerprint;
-use trackdyn_recording::{OperatingPoint, OperatingPoints};
+use trackdyn_recording::{OperatingPoint, OperatingPoints, TableOptions};
 
 /// Largest file of steady operating points, bytes; a thousand points take 60 kB.
 const MAX_TABLE_SIZE: u64 = 64 << 20;
@@ -19,10 +19,10 @@ pub struct PointsTable {
 
 impl PointsTable {
     /// Reads a table `v_left,v_right,v_forward,v_lateral,yaw_rate`; an empty cell was not measured.
-    pub(super) fn read(path: &Path) -> Result<Self, Error> {
+    pub(super) fn read(path: &Path, options: &TableOptions) -> Result<Self, Error> {
         let text = input::bytes(path, MAX_TABLE_SIZE);
         let text = text.map_err(|cause| Error::Unreadable { path: path.to_owned(), cause })?;
-        let table = OperatingPoints::read(path)?;
+        let table = OperatingPoints::read_by(path, options)?;
         Ok(Self { table, path: path.to_owned(), fingerprint: fingerprint(&text) })
     }
 

@@ -147,6 +147,7 @@ fn expected(runs: &[Run]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::recording::Source;
     use crate::sample::{PoseSample, TrackSample};
     use trackdyn_core::Pose;
 

@@ -21,7 +21,7 @@ pub enum DoubtKind {
     /// [`Doubt::OutOfPlane`].
     OutOfPlane,
     /// [`Doubt::Reversed`], [`Doubt::BothReversed`], [`Doubt::Swapped`], [`Doubt::Backwards`],
-    /// [`Doubt::NotSides`].
+    /// [`Doubt::NotSides`], [`Doubt::Unsigned`].
     Signs,
     /// [`Doubt::DeadEncoder`], [`Doubt::StoodStill`].
     DeadEncoder,
@@ -150,6 +150,17 @@ pub enum Doubt {
         /// Turn of the poses per unit of way of the other one, rad.
         per_unit: f64,
     },
+    /// The speed of a side never changes its sign while the poses move as if it did: absolute
+    /// values, as of an encoder that does not tell the direction.
+    Unsigned {
+        /// The side; none for both.
+        side: Option<Side>,
+        /// Part of the way of its track that ran the other way by the poses; of both, the larger.
+        share: f64,
+        /// Parts of the squares of its ways that the poses do not explain: of the readings as they
+        /// are, and with the signs that the poses tell. Of both, the larger.
+        unexplained: [f64; 2],
+    },
     /// The speed of a side never changes while the poses move as if it did.
     DeadEncoder {
         /// The side; none for both.
@@ -250,6 +261,7 @@ impl fmt::Display for Doubt {
                  backwards, or the sides are swapped and count backwards"
             ),
             Self::NotSides { moving, per_unit } => not_sides(f, *moving, *per_unit),
+            Self::Unsigned { side, share, unexplained } => unsigned(f, *side, *share, *unexplained),
             Self::DeadEncoder { side, speed } => {
                 let which = match side {
                     Some(Side::Left) => "the left side never changes",
@@ -290,6 +302,29 @@ fn not_sides(f: &mut fmt::Formatter<'_>, moving: Side, per_unit: f64) -> fmt::Re
     )
 }
 
+/// What is said of speeds without a sign.
+fn unsigned(
+    f: &mut fmt::Formatter<'_>,
+    side: Option<Side>,
+    share: f64,
+    [as_read, with_signs]: [f64; 2],
+) -> fmt::Result {
+    let (whose, track) = match side {
+        Some(Side::Left) => ("the speed of the left side never changes its", "this track"),
+        Some(Side::Right) => ("the speed of the right side never changes its", "this track"),
+        None => ("the speeds of both sides never change their", "a track"),
+    };
+    write!(
+        f,
+        "{whose} sign, while by the poses {track} ran the other way for {:.0} % of its way: \
+         absolute values, as of an encoder that does not tell the direction (the motion leaves \
+         {:.0} % of them unexplained, and {:.1} % with the signs that the poses tell)",
+        100.0 * share,
+        100.0 * as_read,
+        100.0 * with_signs
+    )
+}
+
 impl Doubt {
     /// Its kind.
     pub fn kind(&self) -> DoubtKind {
@@ -305,7 +340,8 @@ impl Doubt {
             | Self::BothReversed
             | Self::Swapped
             | Self::Backwards
-            | Self::NotSides { .. } => DoubtKind::Signs,
+            | Self::NotSides { .. }
+            | Self::Unsigned { .. } => DoubtKind::Signs,
             Self::DeadEncoder { .. } | Self::StoodStill { .. } => DoubtKind::DeadEncoder,
             Self::StuckPoses { .. } => DoubtKind::StuckPoses,
         }
@@ -361,6 +397,11 @@ impl Doubt {
                 "expected the speeds of both sides: of mean and difference, left is mean - \
                  difference/2 and right is mean + difference/2; speed and yaw rate of a bag are \
                  read by --twist-topic and --separation"
+            }
+            Self::Unsigned { .. } => {
+                "expected speeds that are negative where a track runs backwards, which no option \
+                 can tell: another column, topic or signal has them, or the signs of the commands \
+                 have to be given to these before they are read"
             }
             Self::DeadEncoder { .. } => {
                 "expected measured speeds of both sides; of a bag, --left-joint, --right-joint and \

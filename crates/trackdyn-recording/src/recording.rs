@@ -28,6 +28,7 @@ mod spikes;
 mod stretches;
 mod stuck;
 mod stuck_gyro;
+mod unsigned;
 mod warning;
 mod wide_spikes;
 

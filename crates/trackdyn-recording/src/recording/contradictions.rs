@@ -7,7 +7,7 @@
 use super::linear::{self, Linear};
 use super::motion::Following;
 use super::stretches::{Stretch, path_extent, stretches};
-use super::{Run, UncheckedRun, idle, jumps, stuck};
+use super::{Run, UncheckedRun, idle, jumps, stuck, unsigned};
 use crate::doubt::Doubt;
 use crate::sample::Stream;
 use crate::unit;
@@ -193,6 +193,7 @@ pub(super) fn of_runs(runs: &[Run]) -> Vec<Doubt> {
     doubts.extend(turn_in_degrees(runs));
     doubts.extend(idle::dead_encoder(runs, &late));
     doubts.extend(travel(runs, &stretches));
+    doubts.extend(unsigned::of(runs));
     doubts.extend(of_columns(runs));
     doubts.extend(signs(&stretches, &late));
     doubts

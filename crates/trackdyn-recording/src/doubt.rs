@@ -10,7 +10,7 @@ use trackdyn_core::Side;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum DoubtKind {
-    /// [`Doubt::Travel`], [`Doubt::Jumps`].
+    /// [`Doubt::Travel`], [`Doubt::Jumps`], [`Doubt::Positions`].
     Travel,
     /// [`Doubt::Stamps`], [`Doubt::CoarseStamps`].
     Stamps,
@@ -94,6 +94,14 @@ pub enum Doubt {
         share: f64,
         /// Size of the largest, m/s.
         largest: f64,
+    },
+    /// Positions in place of speeds, as the ticks of an encoder: their changes follow the poses.
+    Positions {
+        /// The side; none for both.
+        side: Option<Side>,
+        /// Parts of the squares that the poses do not explain: of the numbers as speeds, and of
+        /// their changes. Of both sides, the larger.
+        unexplained: [f64; 2],
     },
     /// Stamps in a fraction of a second.
     Stamps {
@@ -202,6 +210,7 @@ impl fmt::Display for Doubt {
                  {largest:.1} m/s, too many to be spikes",
                 100.0 * share
             ),
+            Self::Positions { side, unexplained } => positions(f, *side, *unexplained),
             Self::Stamps { interval, unit } => {
                 write!(f, "by the stamps there is a pose every {interval:.3} s")?;
                 match unit {
@@ -302,6 +311,26 @@ fn not_sides(f: &mut fmt::Formatter<'_>, moving: Side, per_unit: f64) -> fmt::Re
     )
 }
 
+/// What is said of positions that were taken for speeds.
+fn positions(
+    f: &mut fmt::Formatter<'_>,
+    side: Option<Side>,
+    [as_speeds, as_positions]: [f64; 2],
+) -> fmt::Result {
+    let whose = match side {
+        Some(Side::Left) => "numbers of the left side",
+        Some(Side::Right) => "numbers of the right side",
+        None => "numbers of both sides",
+    };
+    write!(
+        f,
+        "the {whose} are no speeds but positions, such as ticks of an encoder: their changes \
+         follow the poses (which leave {:.1} % of these unexplained, {:.0} % of them as speeds)",
+        100.0 * as_positions,
+        100.0 * as_speeds
+    )
+}
+
 /// What is said of speeds without a sign.
 fn unsigned(
     f: &mut fmt::Formatter<'_>,
@@ -329,7 +358,7 @@ impl Doubt {
     /// Its kind.
     pub fn kind(&self) -> DoubtKind {
         match self {
-            Self::Travel { .. } | Self::Jumps { .. } => DoubtKind::Travel,
+            Self::Travel { .. } | Self::Jumps { .. } | Self::Positions { .. } => DoubtKind::Travel,
             Self::Stamps { .. } | Self::CoarseStamps { .. } => DoubtKind::Stamps,
             Self::YawInDegrees | Self::YawOfCompass | Self::TurnInDegrees { .. } => {
                 DoubtKind::YawUnit
@@ -354,6 +383,12 @@ impl Doubt {
             Self::Jumps { .. } => {
                 "expected speeds of the tracks, with few wrong readings; of a bag, --joint-signal \
                  and --tracks-topic choose others"
+            }
+            Self::Positions { .. } => {
+                "expected speeds; of a bag, --joint-signal position takes numbers and joints as \
+                 positions, with --wheel-radius in m per unit of them (per tick, the circumference \
+                 by the ticks of a turn); of a table, the change per time of such a column is a \
+                 speed"
             }
             Self::Stamps { .. } => {
                 "expected seconds; of one table with both, --columns t=COLUMN:ms (or us, ns) reads \

@@ -5,10 +5,12 @@ use crate::doubt::{Doubt, DoubtKind};
 use std::path::PathBuf;
 
 mod bias;
+mod by_poses;
 mod cleaning;
 mod clock_rate;
 mod content;
 mod contradictions;
+mod counted;
 mod dead;
 mod finding;
 mod frozen;

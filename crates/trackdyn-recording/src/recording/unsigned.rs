@@ -9,21 +9,12 @@
 //! they are one.
 
 use super::Run;
-use super::linear::MIN_PIECE;
-use super::motion::{DELAY_STEP, DELAYS, Piece, pieces_of, thinned};
+use super::by_poses::{Row, rows_by_delay, unexplained};
 use crate::doubt::Doubt;
-use crate::hold::travelled;
-use nalgebra::{Matrix2, Vector2};
 use trackdyn_core::{PerSide, Side};
 
 /// Largest part of the way of a side, by its readings, that has the other sign: noise at rest.
 const MAX_OTHER_SIGN: f64 = 0.005;
-
-/// Fewest pieces for an explanation.
-const MIN_PIECES: usize = 40;
-
-/// Most pieces of a run that are looked at.
-const MAX_PIECES: usize = 2000;
 
 /// Least part of the squares that has to be unexplained without signs.
 const MIN_UNEXPLAINED: f64 = 0.05;
@@ -35,21 +26,10 @@ const MAX_LEFT: f64 = 0.25;
 /// Least part of its way that a track has to have run the other way.
 const MIN_SHARE: f64 = 0.03;
 
-/// Delays beyond those of [`DELAYS`] that are tried, s.
-const LONG_DELAYS: [f64; 9] = [-4.0, -3.0, -2.0, -1.5, -1.0, 1.5, 2.0, 3.0, 4.0];
-
 /// Least lever that is tried, m, the ratio of one to the next, and their number: up to 2.5 m.
 const MIN_LEVER: f64 = 0.05;
 const LEVER_RATIO: f64 = 1.19;
 const LEVERS: i32 = 24;
-
-/// What the poses did in a piece and what the readings say of it.
-#[derive(Clone, Copy)]
-struct Row {
-    forward: f64,
-    turn: f64,
-    ways: PerSide<f64>,
-}
 
 /// What is known of a side whose speeds have no sign.
 #[derive(Clone, Copy)]
@@ -84,30 +64,11 @@ fn keeps_its_sign(runs: &[Run], side: Side) -> bool {
     ahead + back > 0.0 && ahead.min(back) <= MAX_OTHER_SIGN * (ahead + back)
 }
 
-/// The rows of all runs, for each delay that is tried.
-fn rows_by_delay(runs: &[Run]) -> Vec<Vec<Row>> {
-    let pieces: Vec<Vec<Piece>> = runs.iter().map(|run| pieces_of(run, MIN_PIECE)).collect();
-    let at = |delay: f64| -> Vec<Row> {
-        let of_run = |(run, pieces): (&Run, &Vec<Piece>)| -> Vec<Row> {
-            let covered = thinned(pieces, MAX_PIECES);
-            let covered = covered.filter(|piece| piece.is_covered(run.tracks(), delay));
-            let row = |piece: &Piece| Row {
-                forward: piece.arc(),
-                turn: piece.turn,
-                ways: travelled(run.tracks(), piece.start, piece.end, delay),
-            };
-            covered.map(row).collect()
-        };
-        runs.iter().zip(&pieces).flat_map(of_run).collect()
-    };
-    let delays = DELAYS.map(|step| DELAY_STEP * f64::from(step)).chain(LONG_DELAYS);
-    delays.map(at).filter(|rows| rows.len() >= MIN_PIECES).collect()
-}
-
 /// What is found of a side; none where its speeds may have a sign.
 fn unsigned(rows: &[Vec<Row>], side: Side) -> Option<Unsigned> {
     let least = |a: &[f64; 2], b: &[f64; 2]| a[0].total_cmp(&b[0]);
-    let as_read = rows.iter().map(|rows| left_as_read(rows, side)).min_by(f64::total_cmp)?;
+    let as_read = rows.iter().map(|rows| unexplained(rows, |row| row.ways[side]));
+    let as_read = as_read.min_by(f64::total_cmp)?;
     let levers = (0..LEVERS).map(|k| side.sign() * MIN_LEVER * LEVER_RATIO.powi(k));
     let tried =
         levers.flat_map(|lever| rows.iter().map(move |rows| left_with_signs(rows, side, lever)));
@@ -116,23 +77,6 @@ fn unsigned(rows: &[Vec<Row>], side: Side) -> Option<Unsigned> {
         && with_signs <= MAX_UNEXPLAINED.min(MAX_LEFT * as_read)
         && share >= MIN_SHARE;
     is_found.then_some(Unsigned { share, unexplained: [as_read, with_signs] })
-}
-
-/// Part of the squares of the ways of a side that no p s + q φ explains.
-fn left_as_read(rows: &[Row], side: Side) -> f64 {
-    let (mut matrix, mut right, mut all) = (Matrix2::zeros(), Vector2::zeros(), 0.0);
-    for row in rows {
-        let of = Vector2::new(row.forward, row.turn);
-        matrix += of * of.transpose();
-        right += row.ways[side] * of;
-        all += row.ways[side].powi(2);
-    }
-    // Where the poses go straight, or only turn, one of both explains as much as both.
-    let by = matrix.try_inverse().map_or_else(
-        || right.zip_map(&matrix.diagonal(), |xy, xx| if xx > 0.0 { xy / xx } else { 0.0 }),
-        |inverse| inverse * right,
-    );
-    if all > 0.0 { (1.0 - right.dot(&by) / all).max(0.0) } else { 0.0 }
 }
 
 /// Part of the squares of the ways of a side that no p |s + c φ| explains, and the part of the way

@@ -1,6 +1,7 @@
 //! Track speeds from numbers in messages that are named by the paths of their fields.
 //!
-//! They are read as the velocities of joints, one for each path.
+//! They are read as the velocities of joints, one for each path, or as their positions: counts of
+//! encoders, which become speeds as positions of joints do.
 
 use super::definition::{Definition, Field, Route, Texts};
 use super::options::RosbagOptions;
@@ -48,7 +49,7 @@ pub(super) struct Read<'a> {
     pub(super) stamp_ns: Option<i64>,
     pub(super) names: Vec<&'a str>,
     /// In the unit of the options.
-    pub(super) speeds: Vec<f64>,
+    pub(super) numbers: Vec<f64>,
 }
 
 /// Packages whose messages have no speed of a track.
@@ -123,7 +124,9 @@ pub(super) fn effective<'a>(
         ));
     }
     let other = options.twist_topic.as_ref().map(|_| "--twist-topic");
-    if let Some(other) = other.or_else(|| options.of_joints()) {
+    // Numbers have both kinds of signals, as joints do.
+    let of_joints = options.of_joints().filter(|option| *option != "--joint-signal");
+    if let Some(other) = other.or(of_joints) {
         return refuse(format!(
             "{other} chooses other track speeds than --left-signal and --right-signal: expected \
              one of them"
@@ -257,9 +260,9 @@ impl Signals {
         let Some(decoder) = self.decoders.get_mut(&topic.name) else { return Ok(None) };
         decoder.counts[0] += 1;
         match decoder.read(topic, payload) {
-            Ok((stamp_ns, speeds)) => {
+            Ok((stamp_ns, numbers)) => {
                 let names = decoder.names.iter().map(String::as_str).collect();
-                Ok(Some(Read { stamp_ns, names, speeds }))
+                Ok(Some(Read { stamp_ns, names, numbers }))
             }
             Err(reason) => {
                 decoder.counts[1] += 1;
@@ -292,7 +295,7 @@ impl Decoder {
     fn read(&self, topic: &Topic, payload: &[u8]) -> Result<(Option<i64>, Vec<f64>), String> {
         let payload = topic.payload(payload).map_err(|error| error.to_string())?;
         let number = |route: &Route| self.definition.number(route, &payload);
-        let speeds = self.routes.iter().map(number).collect::<Result<Vec<f64>, String>>()?;
-        Ok((self.definition.stamp(&payload)?, speeds))
+        let numbers = self.routes.iter().map(number).collect::<Result<Vec<f64>, String>>()?;
+        Ok((self.definition.stamp(&payload)?, numbers))
     }
 }

@@ -26,6 +26,13 @@ pub(super) struct Streams {
     pub(super) imu_topic: String,
 }
 
+/// What is said without a radius: of joints and speeds, and of numbers that are positions.
+const RADIUS: &str =
+    "joints turn in rad/s: expected the radius of wheel or sprocket, --wheel-radius METRES";
+const WAY_PER_COUNT: &str = "the numbers are positions: expected the way of the track per unit of \
+                             them, --wheel-radius METRES; per tick of an encoder it is the \
+                             circumference by the ticks of a turn";
+
 /// Values with their run and time.
 type Dated<T> = Vec<(usize, Stamped<T>)>;
 
@@ -72,9 +79,8 @@ pub(super) fn runs(
         ),
     };
     let Some(radius) = options.wheel_radius else {
-        return Err(refuse(
-            "joints turn in rad/s: expected the radius of wheel or sprocket, --wheel-radius METRES",
-        ));
+        let are_counts = !options.left_signals.is_empty() && chosen.signal == Signal::Position;
+        return Err(refuse(if are_counts { WAY_PER_COUNT } else { RADIUS }));
     };
     let anew = clocks.iter().rev().max_by_key(|clock| clock.resets().len());
     let resets = anew.map(Clock::resets).unwrap_or_default();

@@ -4,10 +4,10 @@
 //! encoders, which become speeds as positions of joints do.
 
 use super::definition::{Definition, Field, Route, Texts};
+use super::offer;
 use super::options::RosbagOptions;
 use super::payload::Encoding;
 use super::topic::Topic;
-use super::twist;
 use crate::Error;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -50,41 +50,6 @@ pub(super) struct Read<'a> {
     pub(super) names: Vec<&'a str>,
     /// In the unit of the options.
     pub(super) numbers: Vec<f64>,
-}
-
-/// Packages whose messages have no speed of a track.
-const OTHER_PACKAGES: [&str; 9] = [
-    "sensor_msgs",
-    "geometry_msgs",
-    "nav_msgs",
-    "tf2_msgs",
-    "tf",
-    "rcl_interfaces",
-    "rosgraph_msgs",
-    "visualization_msgs",
-    "diagnostic_msgs",
-];
-
-/// Most topics that an offer lists.
-const MAX_OFFERED: usize = 6;
-
-/// What a log without joints has whose numbers may be speeds of the tracks, and the options that
-/// read them.
-pub(super) fn offer(seen: &[Topic]) -> Option<String> {
-    let may_have = |topic: &&Topic| {
-        let package = topic.kind.split('/').next().unwrap_or_default();
-        topic.layout().is_none()
-            && !OTHER_PACKAGES.contains(&package)
-            && !twist::is_command(&topic.name)
-    };
-    let names: Vec<&str> = seen.iter().filter(may_have).map(|topic| topic.name.as_str()).collect();
-    let first = names.first()?;
-    let more = if names.len() > MAX_OFFERED { " and others" } else { "" };
-    Some(format!(
-        "numbers of other messages ({}{more}) are read, where they are measured speeds of the \
-         sides, by --left-signal {first}:FIELD --right-signal {first}:FIELD",
-        names[..names.len().min(MAX_OFFERED)].join(", ")
-    ))
 }
 
 /// The option that names a number of a side.
@@ -199,9 +164,12 @@ impl Signals {
 
     /// Takes the definition of a type.
     pub(super) fn define(&mut self, kind: &str, text: &str) {
-        if self.are_wanted() {
-            self.texts.add(kind, text);
-        }
+        self.texts.add(kind, text);
+    }
+
+    /// What is said of the numbers of a log without joints.
+    pub(super) fn offer(&self, seen: &[Topic]) -> Option<String> {
+        offer::offer(&self.texts, seen)
     }
 
     /// Whether a number of these messages is wanted.

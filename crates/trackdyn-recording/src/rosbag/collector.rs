@@ -20,6 +20,7 @@ use std::path::Path;
 mod agreement;
 mod alike;
 mod choice;
+mod copies;
 mod gyro;
 mod joint;
 mod merge;

@@ -4,7 +4,7 @@ use super::joint::Joint;
 use super::merge::{Merged, SideSignal, merge};
 use super::signal::Signal;
 use super::tracks::Chosen;
-use super::{Collected, Received, RosbagOptions, Rows, Stamped, turns};
+use super::{Collected, Received, RosbagOptions, Rows, Stamped, copies, turns};
 use crate::Error;
 use crate::recording::{BagNames, Cleaning, UncheckedRun, Warning, clean};
 use crate::rosbag::clock::{By, Clock, segment};
@@ -157,6 +157,7 @@ pub(super) fn runs(
         let (poses, imu) = (poses.collect::<Vec<_>>().into(), imu.collect::<Vec<_>>().into());
         runs.push(UncheckedRun { id, tracks, poses, imu });
     }
+    copies::leave_out(&mut runs, &mut warnings);
     let names = names(&chosen, pose_topic, frames);
     Ok(Collected { runs, epoch_ns, names, warnings })
 }

@@ -18,8 +18,8 @@ pub struct RosbagOptions {
     pub left_joints: Vec<String>,
     /// Joints of the right side, in the same way.
     pub right_joints: Vec<String>,
-    /// Which of the joint's signals to take; of numbers that are named by their fields, whether they
-    /// are speeds or positions, such as ticks.
+    /// Which of the joint's signals to take; of numbers that are named by their fields, whether
+    /// they are speeds or positions, such as ticks.
     pub joint_signal: JointSignal,
     /// Belt speed per joint speed, m: the radius of wheel or sprocket, with any gear.
     pub wheel_radius: Option<f64>,

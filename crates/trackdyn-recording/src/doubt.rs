@@ -10,7 +10,7 @@ use trackdyn_core::Side;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum DoubtKind {
-    /// [`Doubt::Travel`], [`Doubt::Jumps`].
+    /// [`Doubt::Travel`], [`Doubt::Jumps`], [`Doubt::Positions`].
     Travel,
     /// [`Doubt::Stamps`], [`Doubt::CoarseStamps`].
     Stamps,
@@ -21,7 +21,7 @@ pub enum DoubtKind {
     /// [`Doubt::OutOfPlane`].
     OutOfPlane,
     /// [`Doubt::Reversed`], [`Doubt::BothReversed`], [`Doubt::Swapped`], [`Doubt::Backwards`],
-    /// [`Doubt::NotSides`].
+    /// [`Doubt::NotSides`], [`Doubt::Unsigned`].
     Signs,
     /// [`Doubt::DeadEncoder`], [`Doubt::StoodStill`].
     DeadEncoder,
@@ -95,6 +95,14 @@ pub enum Doubt {
         /// Size of the largest, m/s.
         largest: f64,
     },
+    /// Positions in place of speeds, as the ticks of an encoder: their changes follow the poses.
+    Positions {
+        /// The side; none for both.
+        side: Option<Side>,
+        /// Parts of the squares that the poses do not explain: of the numbers as speeds, and of
+        /// their changes. Of both sides, the larger.
+        unexplained: [f64; 2],
+    },
     /// Stamps in a fraction of a second.
     Stamps {
         /// Median interval of the poses, in what should be s.
@@ -150,6 +158,17 @@ pub enum Doubt {
         /// Turn of the poses per unit of way of the other one, rad.
         per_unit: f64,
     },
+    /// The speed of a side never changes its sign while the poses move as if it did: absolute
+    /// values, as of an encoder that does not tell the direction.
+    Unsigned {
+        /// The side; none for both.
+        side: Option<Side>,
+        /// Part of the way of its track that ran the other way by the poses; of both, the larger.
+        share: f64,
+        /// Parts of the squares of its ways that the poses do not explain: of the readings as they
+        /// are, and with the signs that the poses tell. Of both, the larger.
+        unexplained: [f64; 2],
+    },
     /// The speed of a side never changes while the poses move as if it did.
     DeadEncoder {
         /// The side; none for both.
@@ -191,6 +210,7 @@ impl fmt::Display for Doubt {
                  {largest:.1} m/s, too many to be spikes",
                 100.0 * share
             ),
+            Self::Positions { side, unexplained } => positions(f, *side, *unexplained),
             Self::Stamps { interval, unit } => {
                 write!(f, "by the stamps there is a pose every {interval:.3} s")?;
                 match unit {
@@ -250,6 +270,7 @@ impl fmt::Display for Doubt {
                  backwards, or the sides are swapped and count backwards"
             ),
             Self::NotSides { moving, per_unit } => not_sides(f, *moving, *per_unit),
+            Self::Unsigned { side, share, unexplained } => unsigned(f, *side, *share, *unexplained),
             Self::DeadEncoder { side, speed } => {
                 let which = match side {
                     Some(Side::Left) => "the left side never changes",
@@ -290,11 +311,54 @@ fn not_sides(f: &mut fmt::Formatter<'_>, moving: Side, per_unit: f64) -> fmt::Re
     )
 }
 
+/// What is said of positions that were taken for speeds.
+fn positions(
+    f: &mut fmt::Formatter<'_>,
+    side: Option<Side>,
+    [as_speeds, as_positions]: [f64; 2],
+) -> fmt::Result {
+    let whose = match side {
+        Some(Side::Left) => "numbers of the left side",
+        Some(Side::Right) => "numbers of the right side",
+        None => "numbers of both sides",
+    };
+    write!(
+        f,
+        "the {whose} are no speeds but positions, such as ticks of an encoder: their changes \
+         follow the poses (which leave {:.1} % of these unexplained, {:.0} % of them as speeds)",
+        100.0 * as_positions,
+        100.0 * as_speeds
+    )
+}
+
+/// What is said of speeds without a sign.
+fn unsigned(
+    f: &mut fmt::Formatter<'_>,
+    side: Option<Side>,
+    share: f64,
+    [as_read, with_signs]: [f64; 2],
+) -> fmt::Result {
+    let (whose, track) = match side {
+        Some(Side::Left) => ("the speed of the left side never changes its", "this track"),
+        Some(Side::Right) => ("the speed of the right side never changes its", "this track"),
+        None => ("the speeds of both sides never change their", "a track"),
+    };
+    write!(
+        f,
+        "{whose} sign, while by the poses {track} ran the other way for {:.0} % of its way: \
+         absolute values, as of an encoder that does not tell the direction (the motion leaves \
+         {:.0} % of them unexplained, and {:.1} % with the signs that the poses tell)",
+        100.0 * share,
+        100.0 * as_read,
+        100.0 * with_signs
+    )
+}
+
 impl Doubt {
     /// Its kind.
     pub fn kind(&self) -> DoubtKind {
         match self {
-            Self::Travel { .. } | Self::Jumps { .. } => DoubtKind::Travel,
+            Self::Travel { .. } | Self::Jumps { .. } | Self::Positions { .. } => DoubtKind::Travel,
             Self::Stamps { .. } | Self::CoarseStamps { .. } => DoubtKind::Stamps,
             Self::YawInDegrees | Self::YawOfCompass | Self::TurnInDegrees { .. } => {
                 DoubtKind::YawUnit
@@ -305,7 +369,8 @@ impl Doubt {
             | Self::BothReversed
             | Self::Swapped
             | Self::Backwards
-            | Self::NotSides { .. } => DoubtKind::Signs,
+            | Self::NotSides { .. }
+            | Self::Unsigned { .. } => DoubtKind::Signs,
             Self::DeadEncoder { .. } | Self::StoodStill { .. } => DoubtKind::DeadEncoder,
             Self::StuckPoses { .. } => DoubtKind::StuckPoses,
         }
@@ -318,6 +383,12 @@ impl Doubt {
             Self::Jumps { .. } => {
                 "expected speeds of the tracks, with few wrong readings; of a bag, --joint-signal \
                  and --tracks-topic choose others"
+            }
+            Self::Positions { .. } => {
+                "expected speeds; of a bag, --joint-signal position takes numbers and joints as \
+                 positions, with --wheel-radius in m per unit of them (per tick, the circumference \
+                 by the ticks of a turn); of a table, the change per time of such a column is a \
+                 speed"
             }
             Self::Stamps { .. } => {
                 "expected seconds; of one table with both, --columns t=COLUMN:ms (or us, ns) reads \
@@ -361,6 +432,11 @@ impl Doubt {
                 "expected the speeds of both sides: of mean and difference, left is mean - \
                  difference/2 and right is mean + difference/2; speed and yaw rate of a bag are \
                  read by --twist-topic and --separation"
+            }
+            Self::Unsigned { .. } => {
+                "expected speeds that are negative where a track runs backwards, which no option \
+                 can tell: another column, topic or signal has them, or the signs of the commands \
+                 have to be given to these before they are read"
             }
             Self::DeadEncoder { .. } => {
                 "expected measured speeds of both sides; of a bag, --left-joint, --right-joint and \

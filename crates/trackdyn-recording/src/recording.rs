@@ -5,10 +5,12 @@ use crate::doubt::{Doubt, DoubtKind};
 use std::path::PathBuf;
 
 mod bias;
+mod by_poses;
 mod cleaning;
 mod clock_rate;
 mod content;
 mod contradictions;
+mod counted;
 mod dead;
 mod finding;
 mod frozen;
@@ -28,6 +30,7 @@ mod spikes;
 mod stretches;
 mod stuck;
 mod stuck_gyro;
+mod unsigned;
 mod warning;
 mod wide_spikes;
 

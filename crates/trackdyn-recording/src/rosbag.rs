@@ -36,6 +36,7 @@ mod mcap_chunk;
 mod mcap_file;
 mod message;
 mod names;
+mod offer;
 mod options;
 mod part;
 mod path;

@@ -86,7 +86,7 @@ fn four_wheels_are_known_by_their_letters() {
     ] {
         let recording = read(of_joints(50, &names, |t| {
             let PerSide { left, right } = speeds(t);
-            [vec![], vec![1.05 * left, 0.95 * right, 0.95 * left, 1.05 * right]]
+            [vec![], vec![1.005 * left, 0.995 * right, 0.995 * left, 1.005 * right]]
         }));
         assert_speeds(&recording, 3000, 0.0, 1e-12);
     }
@@ -107,6 +107,23 @@ fn joints_of_a_side_that_move_apart_are_refused_with_the_options() {
         [vec![], vec![2.0 * left, left, right]]
     }));
     assert!(text.contains("the first turns 2.00 times as far"), "{text}");
+    let axles = ["front_left_wheel", "front_right_wheel", "rear_left_wheel", "rear_right_wheel"];
+    let faster_in_front = |ratio: f64| {
+        of_joints(50, &axles, move |t| {
+            let PerSide { left, right } = speeds(t);
+            [vec![], vec![ratio * left, ratio * right, left, right]]
+        })
+    };
+    let text = refused(faster_in_front(1.1));
+    for part in [
+        "front_left_wheel turns 1.100 times as far as rear_left_wheel",
+        "--left-joint front_left_wheel --right-joint front_right_wheel or",
+        "--left-joint rear_left_wheel --right-joint rear_right_wheel",
+    ] {
+        assert!(text.contains(part), "{part} is not in {text}");
+    }
+    let recording = read(faster_in_front(1.03));
+    assert_says(&recording, "front_left_wheel turns 1.030 times as far as rear_left_wheel");
     let text = refused(of_joints(50, &["left_a", "left_b", "right_a"], |t| {
         let PerSide { left, right } = speeds(t);
         [vec![], vec![left, -left, right]]

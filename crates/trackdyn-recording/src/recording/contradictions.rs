@@ -7,7 +7,7 @@
 use super::linear::{self, Linear};
 use super::motion::Following;
 use super::stretches::{Stretch, path_extent, stretches};
-use super::{Run, UncheckedRun, idle, jumps, stuck};
+use super::{Run, UncheckedRun, counted, idle, jumps, stuck, unsigned};
 use crate::doubt::Doubt;
 use crate::sample::Stream;
 use crate::unit;
@@ -188,11 +188,13 @@ pub(super) fn of_runs(runs: &[Run]) -> Vec<Doubt> {
     let stuck = stuck::stuck_poses(runs, explained);
     let orientation = if stuck.is_none() { orientation(runs) } else { None };
     let mut doubts: Vec<Doubt> = runs.iter().find_map(of_times).into_iter().collect();
+    doubts.extend(counted::of(runs));
     doubts.extend(jumps::of(runs));
     doubts.extend(stuck.or(orientation));
     doubts.extend(turn_in_degrees(runs));
     doubts.extend(idle::dead_encoder(runs, &late));
     doubts.extend(travel(runs, &stretches));
+    doubts.extend(unsigned::of(runs));
     doubts.extend(of_columns(runs));
     doubts.extend(signs(&stretches, &late));
     doubts

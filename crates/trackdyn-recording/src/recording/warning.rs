@@ -491,10 +491,10 @@ fn turns_added(f: &mut fmt::Formatter<'_>, joint: &str, count: usize, modulus: f
     if modulus == TAU {
         return write!(f, "{joint}: its position wraps ({count} times), whole turns added");
     }
-    write!(
-        f,
-        "{joint}: its position wraps at {modulus:.4} rad, as its jumps show ({count} times): added"
-    )
+    // Ticks are whole numbers, and no angles.
+    let modulus =
+        if modulus.fract() == 0.0 { format!("{modulus}") } else { format!("{modulus:.4} rad") };
+    write!(f, "{joint}: its position wraps at {modulus}, as its jumps show ({count} times): added")
 }
 
 /// Offsets of usual clocks, s, since 2017, and what they are.

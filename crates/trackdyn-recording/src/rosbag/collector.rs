@@ -20,6 +20,7 @@ use std::path::Path;
 mod agreement;
 mod alike;
 mod choice;
+mod copies;
 mod gyro;
 mod joint;
 mod merge;
@@ -126,7 +127,8 @@ impl<'a> Collector<'a> {
             let (topic, reason) = (topic.clone(), reason.clone());
             warnings.push(Warning::MessagesSkipped { topic, count: *count, reason });
         }
-        let sources = Sources { path, options: self.options, seen: &self.seen };
+        let signals = &self.signals;
+        let sources = Sources { path, options: self.options, seen: &self.seen, signals };
         let usual_chain = self.usual_chain();
         let is_dynamic = self.takes_dynamic_joints(&mut warnings);
         let joints = if is_dynamic { self.dynamic_joints } else { self.joints };

@@ -18,7 +18,8 @@ pub struct RosbagOptions {
     pub left_joints: Vec<String>,
     /// Joints of the right side, in the same way.
     pub right_joints: Vec<String>,
-    /// Which of the joint's signals to take.
+    /// Which of the joint's signals to take; of numbers that are named by their fields, whether
+    /// they are speeds or positions, such as ticks.
     pub joint_signal: JointSignal,
     /// Belt speed per joint speed, m: the radius of wheel or sprocket, with any gear.
     pub wheel_radius: Option<f64>,
@@ -42,7 +43,8 @@ pub struct RosbagOptions {
     pub twist_topic: Option<String>,
     /// Separation b of the tracks that the driver of `twist_topic` reckons with, m; needed with it.
     pub separation: Option<f64>,
-    /// Numbers in messages that are speeds of the left side, in place of joints, each as
+    /// Numbers in messages that are speeds of the left side, or by `joint_signal` positions, which
+    /// `wheel_radius` makes ways (m per tick, or per radian), in place of joints, each as
     /// `TOPIC:FIELD`, such as `/status:motors[0].rpm`; their mean counts, and a `-` before one
     /// reverses its sign. Where they are in the messages is told by their definitions, which a bag
     /// has, or `msg_dir`.

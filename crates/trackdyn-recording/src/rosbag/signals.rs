@@ -1,12 +1,13 @@
 //! Track speeds from numbers in messages that are named by the paths of their fields.
 //!
-//! They are read as the velocities of joints, one for each path.
+//! They are read as the velocities of joints, one for each path, or as their positions: counts of
+//! encoders, which become speeds as positions of joints do.
 
 use super::definition::{Definition, Field, Route, Texts};
+use super::offer;
 use super::options::RosbagOptions;
 use super::payload::Encoding;
 use super::topic::Topic;
-use super::twist;
 use crate::Error;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -48,42 +49,7 @@ pub(super) struct Read<'a> {
     pub(super) stamp_ns: Option<i64>,
     pub(super) names: Vec<&'a str>,
     /// In the unit of the options.
-    pub(super) speeds: Vec<f64>,
-}
-
-/// Packages whose messages have no speed of a track.
-const OTHER_PACKAGES: [&str; 9] = [
-    "sensor_msgs",
-    "geometry_msgs",
-    "nav_msgs",
-    "tf2_msgs",
-    "tf",
-    "rcl_interfaces",
-    "rosgraph_msgs",
-    "visualization_msgs",
-    "diagnostic_msgs",
-];
-
-/// Most topics that an offer lists.
-const MAX_OFFERED: usize = 6;
-
-/// What a log without joints has whose numbers may be speeds of the tracks, and the options that
-/// read them.
-pub(super) fn offer(seen: &[Topic]) -> Option<String> {
-    let may_have = |topic: &&Topic| {
-        let package = topic.kind.split('/').next().unwrap_or_default();
-        topic.layout().is_none()
-            && !OTHER_PACKAGES.contains(&package)
-            && !twist::is_command(&topic.name)
-    };
-    let names: Vec<&str> = seen.iter().filter(may_have).map(|topic| topic.name.as_str()).collect();
-    let first = names.first()?;
-    let more = if names.len() > MAX_OFFERED { " and others" } else { "" };
-    Some(format!(
-        "numbers of other messages ({}{more}) are read, where they are measured speeds of the \
-         sides, by --left-signal {first}:FIELD --right-signal {first}:FIELD",
-        names[..names.len().min(MAX_OFFERED)].join(", ")
-    ))
+    pub(super) numbers: Vec<f64>,
 }
 
 /// The option that names a number of a side.
@@ -123,7 +89,9 @@ pub(super) fn effective<'a>(
         ));
     }
     let other = options.twist_topic.as_ref().map(|_| "--twist-topic");
-    if let Some(other) = other.or_else(|| options.of_joints()) {
+    // Numbers have both kinds of signals, as joints do.
+    let of_joints = options.of_joints().filter(|option| *option != "--joint-signal");
+    if let Some(other) = other.or(of_joints) {
         return refuse(format!(
             "{other} chooses other track speeds than --left-signal and --right-signal: expected \
              one of them"
@@ -196,9 +164,12 @@ impl Signals {
 
     /// Takes the definition of a type.
     pub(super) fn define(&mut self, kind: &str, text: &str) {
-        if self.are_wanted() {
-            self.texts.add(kind, text);
-        }
+        self.texts.add(kind, text);
+    }
+
+    /// What is said of the numbers of a log without joints.
+    pub(super) fn offer(&self, seen: &[Topic]) -> Option<String> {
+        offer::offer(&self.texts, seen)
     }
 
     /// Whether a number of these messages is wanted.
@@ -257,9 +228,9 @@ impl Signals {
         let Some(decoder) = self.decoders.get_mut(&topic.name) else { return Ok(None) };
         decoder.counts[0] += 1;
         match decoder.read(topic, payload) {
-            Ok((stamp_ns, speeds)) => {
+            Ok((stamp_ns, numbers)) => {
                 let names = decoder.names.iter().map(String::as_str).collect();
-                Ok(Some(Read { stamp_ns, names, speeds }))
+                Ok(Some(Read { stamp_ns, names, numbers }))
             }
             Err(reason) => {
                 decoder.counts[1] += 1;
@@ -292,7 +263,7 @@ impl Decoder {
     fn read(&self, topic: &Topic, payload: &[u8]) -> Result<(Option<i64>, Vec<f64>), String> {
         let payload = topic.payload(payload).map_err(|error| error.to_string())?;
         let number = |route: &Route| self.definition.number(route, &payload);
-        let speeds = self.routes.iter().map(number).collect::<Result<Vec<f64>, String>>()?;
-        Ok((self.definition.stamp(&payload)?, speeds))
+        let numbers = self.routes.iter().map(number).collect::<Result<Vec<f64>, String>>()?;
+        Ok((self.definition.stamp(&payload)?, numbers))
     }
 }

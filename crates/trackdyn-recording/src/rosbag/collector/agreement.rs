@@ -1,12 +1,17 @@
 //! Whether the joints of a side move alike, and what to do where they do not.
 
-use super::alike::{Likeness, edges, likeness, means, ratio, speeds};
+use super::alike::{Likeness, edges, likeness, means, ratio, ratio_all_along, speeds};
 use super::joint::{Joint, listed};
 use super::signal::Signal;
 use crate::recording::Warning;
 use crate::rosbag::names::word;
 use std::collections::BTreeMap;
 use trackdyn_core::Side;
+
+/// Part by which joints of a side may turn faster than another all along, without a word and at
+/// all: the mean of both is off by half of it.
+const MAX_UNTOLD: f64 = 0.02;
+const MAX_FASTER: f64 = 0.05;
 
 /// Keeps the joints of a side that move, which have to move alike.
 ///
@@ -37,10 +42,75 @@ pub(super) fn keep_alike(
     let edges = edges(motions.iter());
     let moving = motions.iter().zip(&moves).filter(|(_, moves)| **moves);
     let means: Vec<Vec<f64>> = moving.map(|(motion, _)| means(motion, &edges)).collect();
-    match refusal(joints, side, &means) {
-        Some(problem) => Err(problem),
-        None => Ok(()),
+    if let Some(problem) = refusal(joints, side, &means) {
+        return Err(problem);
     }
+    let names: Vec<&str> = names(joints, side);
+    let Some((other, ratio)) = faster(&means) else { return Ok(()) };
+    if ratio.max(1.0 / ratio) >= 1.0 + MAX_FASTER {
+        return Err(one_of_both(joints, side, [names[0], names[other]], ratio));
+    }
+    warnings.push(told_faster(side, &names, other, ratio));
+    Ok(())
+}
+
+/// Names of the joints of a side.
+fn names(joints: &[Joint], side: Side) -> Vec<&str> {
+    let of_side = joints.iter().filter(|joint| joint.side == side);
+    of_side.map(|joint| joint.name.as_str()).collect()
+}
+
+/// The joint that turns faster or slower than the first all along, and the speed of the first per
+/// speed of that one; the largest such ratio, where it is worth a word.
+fn faster(means: &[Vec<f64>]) -> Option<(usize, f64)> {
+    let size = |ratio: f64| ratio.max(1.0 / ratio);
+    let all = (1..means.len()).filter_map(|at| {
+        let ratio = ratio_all_along(&means[0], &means[at])?;
+        (size(ratio) >= 1.0 + MAX_UNTOLD).then_some((at, ratio))
+    });
+    all.max_by(|(_, a), (_, b)| size(*a).total_cmp(&size(*b)))
+}
+
+/// How much faster a joint turns than another one.
+fn faster_by([first, second]: [&str; 2], ratio: f64) -> String {
+    format!(
+        "{first} turns {ratio:.3} times as far as {second} all along (wheels of other sizes, or a \
+         gear)"
+    )
+}
+
+/// What is said of joints that turn nearly as far as each other.
+fn told_faster(side: Side, names: &[&str], other: usize, ratio: f64) -> Warning {
+    let what = if side == Side::Left { "left joints" } else { "right joints" };
+    let told = faster_by([names[0], names[other]], ratio);
+    let (names, word) = (names.join(", "), word(side));
+    let taken = format!("the mean of {names}, but {told}; --{word}-joint takes one of them");
+    Warning::Chosen { what, taken }
+}
+
+/// Why two joints are not taken together that turn by a fixed ratio, and the options that take one
+/// of them on each side.
+fn one_of_both(joints: &[Joint], side: Side, pair: [&str; 2], ratio: f64) -> String {
+    let others = names(joints, side.other());
+    let own = names(joints, side);
+    let option = |name: &str| {
+        let place = own.iter().position(|one| *one == name);
+        // Joints of an axle stand at the same place, where there are as many on the other side.
+        let beside = place.and_then(|at| others.get(at)).filter(|_| own.len() == others.len());
+        let named = format!("--{}-joint {name}", word(side));
+        let beside = beside.map(|beside| format!("--{}-joint {beside}", word(side.other())));
+        match (side, beside) {
+            (_, None) => named,
+            (Side::Left, Some(beside)) => format!("{named} {beside}"),
+            (Side::Right, Some(beside)) => format!("{beside} {named}"),
+        }
+    };
+    let [first, second] = pair.map(option);
+    format!(
+        "{}: one --wheel-radius does not fit both. Take one of them on each side, with its own \
+         radius, by {first} or by {second}",
+        faster_by(pair, ratio)
+    )
 }
 
 /// What is to be said of joints that the options name and that do not move alike.
@@ -54,7 +124,11 @@ pub(super) fn told_apart(joints: &[Joint], side: Side, signal: Signal) -> Option
             (joint.name.as_str(), means.iter().map(|mean| joint.sign * mean).collect())
         })
         .unzip();
-    let apart = (1..means.len()).find(|&at| likeness(&means[0], &means[at]) != Likeness::Alike)?;
+    let apart = (1..means.len()).find(|&at| likeness(&means[0], &means[at]) != Likeness::Alike);
+    let Some(apart) = apart else {
+        let (other, ratio) = faster(&means)?;
+        return Some(told_faster(side, &names, other, ratio));
+    };
     let what = if side == Side::Left { "left joints" } else { "right joints" };
     let apart = apart_from(names[0], names[apart], &means[0], &means[apart]);
     Some(Warning::Chosen { what, taken: format!("the mean of {}, but {apart}", names.join(", ")) })

@@ -8,6 +8,7 @@
 
 use super::turns;
 use crate::rosbag::date::Received;
+use trackdyn_core::real;
 
 /// Largest ratio of Σ(a − b)² to (Σa² + Σb²)/2.
 const MAX_DIFFERENCE: f64 = 0.2;
@@ -26,6 +27,15 @@ const LIMIT: f64 = 1.5;
 
 /// Correlation about zero of joints that go by a fixed ratio.
 const MIN_CORRELATION: f64 = 0.98;
+
+/// Least speed of a joint whose ratio to another one counts, in root mean squares of its speeds.
+const MIN_SPEED: f64 = 0.5;
+
+/// Fewest means whose ratio tells one that holds all along.
+const MIN_RATIOS: usize = 20;
+
+/// Largest ratio of the quartiles of such ratios.
+const MAX_QUARTILE_RATIO: f64 = 1.05;
 
 /// How two joints move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -113,4 +123,44 @@ pub(super) fn ratio(a: &[f64], b: &[f64]) -> Option<f64> {
     let sum = |of: fn(f64, f64) -> f64| both().map(|(a, b)| of(*a, *b)).sum::<f64>();
     let (aa, bb, ab) = (sum(|a, _| a * a), sum(|_, b| b * b), sum(|a, b| a * b));
     (ab > MIN_CORRELATION * (aa * bb).sqrt() && bb > 0.0).then(|| (aa / bb).sqrt())
+}
+
+/// Speed of a joint per speed of another by their means, where it is one all along: wheels of other
+/// sizes, or gears. Slip, and readings that are wrong for a while, come and go.
+pub(super) fn ratio_all_along(a: &[f64], b: &[f64]) -> Option<f64> {
+    let both = || a.iter().zip(b).filter(|(a, b)| a.is_finite() && b.is_finite());
+    let size = (both().map(|(_, b)| b * b).sum::<f64>() / real(both().count().max(1))).sqrt();
+    let is_fast = |(_, b): &(&f64, &f64)| b.abs() >= MIN_SPEED * size && size > 0.0;
+    let mut ratios: Vec<f64> = both().filter(is_fast).map(|(a, b)| a / b).collect();
+    ratios.sort_by(f64::total_cmp);
+    let count = ratios.len();
+    if count < MIN_RATIOS {
+        return None;
+    }
+    let [lower, ratio, upper] = [count / 4, count / 2, count * 3 / 4].map(|at| ratios[at]);
+    (lower > 0.0 && upper <= MAX_QUARTILE_RATIO * lower).then_some(ratio)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ratio_is_one_that_holds_all_along() {
+        let b: Vec<f64> = (0..200).map(|k| (0.1 * f64::from(k)).sin()).collect();
+        let times = |of: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            b.iter().enumerate().map(|(k, b)| of(k) * b).collect()
+        };
+        let near = |found: Option<f64>, ratio: f64| {
+            found.is_some_and(|found| (found - ratio).abs() < 1e-9)
+        };
+        assert!(near(ratio_all_along(&times(&|_| 1.1), &b), 1.1));
+        // a wheel that slips in one of ten
+        let slips = times(&|k| if k % 10 == 0 { 1.5 } else { 1.0 });
+        assert!(near(ratio_all_along(&slips, &b), 1.0));
+        let often = times(&|k| if k % 2 == 0 { 1.2 } else { 1.0 });
+        assert_eq!(ratio_all_along(&often, &b), None);
+        assert_eq!(ratio_all_along(&[], &[]), None);
+        assert_eq!(ratio_all_along(&[0.0; 50], &[0.0; 50]), None);
+    }
 }

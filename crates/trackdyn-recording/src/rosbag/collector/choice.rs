@@ -8,8 +8,9 @@ use crate::recording::Warning;
 use crate::rosbag::date::Received;
 use crate::rosbag::frames::may_be_odometry;
 use crate::rosbag::joints::Source;
+use crate::rosbag::signals::Signals;
 use crate::rosbag::topic::{Layout, Role, Topic, list};
-use crate::rosbag::{signals, twist};
+use crate::rosbag::twist;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -18,6 +19,7 @@ pub(super) struct Sources<'a> {
     pub(super) path: &'a Path,
     pub(super) options: &'a RosbagOptions,
     pub(super) seen: &'a [Topic],
+    pub(super) signals: &'a Signals,
 }
 
 /// What is looked for.
@@ -36,6 +38,15 @@ fn is_of_points(kind: &str) -> bool {
     matches!(kind.rsplit('/').next(), Some("PointStamped" | "Point" | "Point32"))
 }
 
+/// What is said of messages of joints that have no names, and the options that read them.
+fn nameless(source: &Source) -> String {
+    let topic = &source.topic;
+    format!(
+        "the joints of {topic} have no names: its numbers are read, where the first is that of the \
+         left side, by --left-signal {topic}:velocity[0] --right-signal {topic}:velocity[1]"
+    )
+}
+
 impl Sources<'_> {
     pub(super) fn tracks(
         &self,
@@ -50,8 +61,9 @@ impl Sources<'_> {
             kinds.extend(skipped.iter().map(|(topic, (count, reason))| {
                 format!("{topic}: {count} messages skipped, because {reason}")
             }));
+            kinds.extend(joints.iter().find(|source| source.messages > 0).map(nameless));
             kinds.extend(twist::offer(self.seen));
-            kinds.extend(signals::offer(self.seen));
+            kinds.extend(self.signals.offer(self.seen));
             let named = self.options.tracks_topic.as_deref();
             let option = match self.options.twist_topic {
                 Some(_) => "--twist-topic",

@@ -4,7 +4,7 @@ use super::joint::Joint;
 use super::merge::{Merged, SideSignal, merge};
 use super::signal::Signal;
 use super::tracks::Chosen;
-use super::{Collected, Received, RosbagOptions, Rows, Stamped, turns};
+use super::{Collected, Received, RosbagOptions, Rows, Stamped, copies, turns};
 use crate::Error;
 use crate::recording::{BagNames, Cleaning, UncheckedRun, Warning, clean};
 use crate::rosbag::clock::{By, Clock, segment};
@@ -25,6 +25,13 @@ pub(super) struct Streams {
     pub(super) imu: Rows,
     pub(super) imu_topic: String,
 }
+
+/// What is said without a radius: of joints and speeds, and of numbers that are positions.
+const RADIUS: &str =
+    "joints turn in rad/s: expected the radius of wheel or sprocket, --wheel-radius METRES";
+const WAY_PER_COUNT: &str = "the numbers are positions: expected the way of the track per unit of \
+                             them, --wheel-radius METRES; per tick of an encoder it is the \
+                             circumference by the ticks of a turn";
 
 /// Values with their run and time.
 type Dated<T> = Vec<(usize, Stamped<T>)>;
@@ -72,9 +79,8 @@ pub(super) fn runs(
         ),
     };
     let Some(radius) = options.wheel_radius else {
-        return Err(refuse(
-            "joints turn in rad/s: expected the radius of wheel or sprocket, --wheel-radius METRES",
-        ));
+        let are_counts = !options.left_signals.is_empty() && chosen.signal == Signal::Position;
+        return Err(refuse(if are_counts { WAY_PER_COUNT } else { RADIUS }));
     };
     let anew = clocks.iter().rev().max_by_key(|clock| clock.resets().len());
     let resets = anew.map(Clock::resets).unwrap_or_default();
@@ -151,6 +157,7 @@ pub(super) fn runs(
         let (poses, imu) = (poses.collect::<Vec<_>>().into(), imu.collect::<Vec<_>>().into());
         runs.push(UncheckedRun { id, tracks, poses, imu });
     }
+    copies::leave_out(&mut runs, &mut warnings);
     let names = names(&chosen, pose_topic, frames);
     Ok(Collected { runs, epoch_ns, names, warnings })
 }

@@ -5,6 +5,7 @@ use super::{Collector, push};
 use crate::rosbag::date::Received;
 use crate::rosbag::dynamic_joints::{self, DynamicJoints};
 use crate::rosbag::message::{header, imu};
+use crate::rosbag::options::JointSignal;
 use crate::rosbag::payload::PayloadError;
 use crate::rosbag::signals::Read;
 use crate::rosbag::topic::{Layout, Role, Topic};
@@ -25,11 +26,15 @@ impl Collector<'_> {
         named.as_ref().is_none_or(|name| *name == topic.name)
     }
 
-    /// Takes the numbers that the options name as the velocities of joints.
+    /// Takes the numbers that the options name as the velocities of joints, or their positions.
     fn take_signals(&mut self, topic: &Topic, log_ns: i64, payload: &[u8]) -> Result<(), String> {
-        if let Some(Read { stamp_ns, names, speeds }) = self.signals.read(topic, payload)? {
+        if let Some(Read { stamp_ns, names, numbers }) = self.signals.read(topic, payload)? {
             let received = Received { stamp_ns, log_ns, value: () };
-            self.joints.take_signals(&topic.name, received, &names, [&[], &speeds]);
+            let signals = match self.options.joint_signal {
+                JointSignal::Position => [&numbers[..], &[]],
+                JointSignal::Any | JointSignal::Velocity => [&[], &numbers[..]],
+            };
+            self.joints.take_signals(&topic.name, received, &names, signals);
         }
         Ok(())
     }

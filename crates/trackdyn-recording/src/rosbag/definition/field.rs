@@ -48,7 +48,48 @@ impl Field {
     }
 }
 
+/// Messages whose numbers are no measurement.
+const NO_MEASUREMENT: [&str; 4] = [
+    "std_msgs/Header",
+    "builtin_interfaces/Time",
+    "builtin_interfaces/Duration",
+    "std_msgs/MultiArrayLayout",
+];
+
+/// Deepest message, and most paths, that a list of numbers has.
+const MAX_LISTED_DEPTH: usize = 3;
+const MAX_LISTED: usize = 64;
+
 impl Definition {
+    /// The paths of its numbers; of an array that of the first element.
+    pub(in super::super) fn numbers(&self) -> Vec<String> {
+        let mut paths = Vec::new();
+        self.add_numbers(0, "", MAX_LISTED_DEPTH, &mut paths);
+        paths
+    }
+
+    fn add_numbers(&self, message: usize, before: &str, depth: usize, paths: &mut Vec<String>) {
+        for member in &self.messages[message].members {
+            if paths.len() >= MAX_LISTED || member.count == Count::Fixed(0) {
+                continue;
+            }
+            let element = if member.count == Count::One { "" } else { "[0]" };
+            let path = format!("{before}{}{element}", member.name);
+            match member.kind {
+                Kind::Number(_) => paths.push(path),
+                Kind::Message(inner) if depth > 0 && self.is_measured(inner) => {
+                    self.add_numbers(inner, &format!("{path}."), depth - 1, paths);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Whether the numbers of a message may be measured ones.
+    fn is_measured(&self, message: usize) -> bool {
+        !NO_MEASUREMENT.contains(&self.messages[message].kind.as_str())
+    }
+
     /// The way to a field that is a number.
     ///
     /// # Errors

@@ -13,9 +13,9 @@ const MAX_FOLDERS: usize = 8;
 /// What stands between definitions, at least.
 const RULE: &str = "===";
 
-/// Definitions that no bag and no folder has to have: those of numbers, which bags of ROS 2 before
-/// Iron hold without.
-const KNOWN: [(&str, &str); 17] = [
+/// Definitions that no bag and no folder has to have: those of numbers and joints, which bags of
+/// ROS 2 before Iron hold without.
+const KNOWN: [(&str, &str); 18] = [
     ("builtin_interfaces/Time", "int32 sec\nuint32 nanosec"),
     ("builtin_interfaces/Duration", "int32 sec\nuint32 nanosec"),
     ("std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id"),
@@ -33,6 +33,11 @@ const KNOWN: [(&str, &str); 17] = [
     ("std_msgs/Int32MultiArray", "MultiArrayLayout layout\nint32[] data"),
     ("std_msgs/Int64MultiArray", "MultiArrayLayout layout\nint64[] data"),
     ("std_msgs/UInt16", "uint16 data"),
+    (
+        "sensor_msgs/JointState",
+        "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\n\
+         float64[] effort",
+    ),
 ];
 
 /// A type without `msg/`, as both versions of ROS write it.

@@ -6,7 +6,9 @@
 //! median of what three or more jumps tell. A whole number of half turns is taken where it lies
 //! within the error of M, and of whole numbers, such as ticks, a whole number.
 //!
-//! Fewer jumps, or jumps of many sizes, are wraps of a whole turn or none.
+//! Fewer jumps, or jumps of many sizes, are wraps of a whole turn or none. Whole numbers that fill
+//! the range of a counter of 8, 16 or 32 bits, and jump by as much, are its counts however few the
+//! jumps.
 //!
 //! # Assumes
 //! The joint turns by less than M/2 between two readings. Where it does not, it seems to turn by
@@ -41,6 +43,13 @@ const MAX_FAR_SHARE: f64 = 0.01;
 /// Share of steps beyond half the range that are neither glitches nor restarts.
 const MIN_JUMP_SHARE: f64 = 0.1;
 
+/// Counts that fit into 8, 16 and 32 bits.
+const COUNTERS: [f64; 3] = [256.0, 65_536.0, 4_294_967_296.0];
+
+/// How far what a jump tells may be from such a number, in parts of it, and in counts.
+const MAX_COUNTER_ERROR: f64 = 2e-3;
+const MAX_COUNTS: f64 = 6.0;
+
 /// Modulo what positions are reported.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Modulus {
@@ -61,7 +70,7 @@ impl Modulus {
         let is_jump = |k: usize| steps[k].abs() > 0.5 * range;
         let jumps: Vec<usize> = (0..steps.len()).filter(|&k| is_jump(k)).collect();
         let moving = steps.iter().filter(|step| **step != 0.0).count();
-        if jumps.len() < MIN_JUMPS {
+        if jumps.is_empty() {
             return Self::Unknown;
         }
         let mut told: Vec<f64> = jumps
@@ -75,6 +84,16 @@ impl Modulus {
                 (!beside.is_empty()).then(|| steps[k].abs() - steps[k].signum() * turned)
             })
             .collect();
+        if let Some(modulus) = of_counter(positions, range, &told) {
+            return if is_aliased(&steps, modulus, moving) {
+                Self::Unclear(range)
+            } else {
+                Self::Of(modulus)
+            };
+        }
+        if jumps.len() < MIN_JUMPS {
+            return Self::Unknown;
+        }
         let count = real(told.len().max(1));
         let modulus = median(&mut told).unwrap_or(0.0);
         let mut off: Vec<f64> = told.iter().map(|one| one - modulus).collect();
@@ -97,6 +116,17 @@ impl Modulus {
         }
         Self::Unknown
     }
+}
+
+/// How many counts a counter has, by its whole numbers, their range and what its jumps tell.
+fn of_counter(positions: &[f64], range: f64, told: &[f64]) -> Option<f64> {
+    if told.is_empty() || positions.iter().any(|position| position.fract() != 0.0) {
+        return None;
+    }
+    COUNTERS.into_iter().find(|&counts| {
+        let error = (MAX_COUNTER_ERROR * counts).max(MAX_COUNTS);
+        range < counts && told.iter().all(|one| (one - counts).abs() <= error)
+    })
 }
 
 /// A whole number, or a whole number of half turns, where it is within the error.
@@ -163,6 +193,21 @@ mod tests {
             let found = Modulus::of(&positions(rate, modulus, 5e-4));
             assert!(matches!(found, Modulus::Unclear(_)), "{rate} {modulus} {found:?}");
         }
+    }
+
+    /// Ticks from the middle of the range on, as of a signed counter.
+    #[test]
+    fn counters_of_few_wraps_are_known() {
+        for (counts, per_radian) in [(256.0, 4.0), (65_536.0, 652.0)] {
+            let ticks = |angle: f64| (per_radian * angle).round();
+            let wrapped = |angle: f64| (ticks(angle) + 0.5 * counts).rem_euclid(counts);
+            let whole = positions(50, 1e9, 1e-9);
+            let signed: Vec<f64> = whole.iter().map(|a| wrapped(*a) - 0.5 * counts).collect();
+            assert_eq!(Modulus::of(&signed), Modulus::Of(counts), "{counts}");
+        }
+        // one that starts anew at zero
+        let anew = (0..900_u32).map(|k| f64::from(if k < 600 { 100 * k } else { 100 * (k - 600) }));
+        assert_eq!(Modulus::of(&anew.collect::<Vec<_>>()), Modulus::Unknown);
     }
 
     #[test]

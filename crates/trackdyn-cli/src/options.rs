@@ -117,10 +117,12 @@ pub struct RecordingOptions {
     /// Bag: joint on the right, in the same way
     #[arg(long, value_name = "JOINT", allow_hyphen_values = true)]
     right_joint: Vec<String>,
-    /// Bag: signal of the joints [default: velocity where there is one]
+    /// Bag: signal of the joints [default: velocity where there is one]; position also reads the
+    /// numbers of --left-signal and --right-signal as angles or ticks
     #[arg(long, value_name = "SIGNAL")]
     joint_signal: Option<Signal>,
-    /// Belt travel in m per radian of the joints of a bag, or of wheels (--speed-unit)
+    /// Belt travel in m per radian of the joints of a bag, or of wheels (--speed-unit), or per unit
+    /// of numbers that are positions (--joint-signal)
     #[arg(long, value_name = "M", value_parser = positive)]
     wheel_radius: Option<f64>,
     /// Bag: topic of the poses

@@ -191,6 +191,7 @@ pub enum Doubt {
 }
 
 impl fmt::Display for Doubt {
+    #[expect(clippy::too_many_lines, reason = "one arm for each doubt")]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Travel { ratio, units } => {

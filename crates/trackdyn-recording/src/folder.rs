@@ -64,7 +64,7 @@ pub fn read_by(folder: &Path, options: &TableOptions) -> Result<Recording, Error
     let source =
         Source { format: Format::Folder, path: Some(folder.to_owned()), ..Source::computed() };
     let mut runs = divide(runs.into_values().collect(), &mut warnings);
-    options.from_units(folder, &mut runs)?;
+    options.convert(folder, &mut runs)?;
     if by_gyroscope {
         runs.iter_mut().for_each(turn_by_gyroscope);
         warnings.push(Warning::YawOfGyroscope { gyroscope: imu.display().to_string() });

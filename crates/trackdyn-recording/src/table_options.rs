@@ -30,7 +30,7 @@ impl TableOptions {
     ///
     /// # Errors
     /// [`Error::Options`] for a unit of wheels without their radius, and the reverse.
-    pub(crate) fn from_units(&self, path: &Path, runs: &mut [UncheckedRun]) -> Result<(), Error> {
+    pub(crate) fn convert(&self, path: &Path, runs: &mut [UncheckedRun]) -> Result<(), Error> {
         let scale = scale_of_table(path, self.speed_unit, self.wheel_radius)?;
         for reading in runs.iter_mut().flat_map(|run| &mut run.tracks.samples) {
             reading.v_left *= scale;

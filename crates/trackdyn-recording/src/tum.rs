@@ -45,7 +45,7 @@ pub fn read_by(
     let ((tracks, mut warnings), imu) = (folder::read_single_tracks(tracks)?, Series::default());
     warnings.extend(tilted.map(Warning::Accepted));
     let mut runs = divide(vec![UncheckedRun { id: 0, tracks, poses, imu }], &mut warnings);
-    options.from_units(trajectory, &mut runs)?;
+    options.convert(trajectory, &mut runs)?;
     turn_sensor(&mut runs, options.pose_axes, options.mount_yaw);
     let name = input::name_of(trajectory);
     let source =

@@ -101,7 +101,8 @@ def read_recording(path: str | os.PathLike[str], **options: Any) -> Recording:
     left_joints, right_joints : str or sequence of str
         Of a bag: joints of each side, with ``-`` before those that run backwards.
     joint_signal : {"velocity", "position"}
-        Of a bag: signal of the joints. Default: velocity where there is one.
+        Of a bag: signal of the joints. Default: velocity where there is one. Position also reads
+        the numbers of signals as angles or ticks.
     pose_index : int
         Of a bag: which pose of a PoseArray is that of the robot, from 0.
     parent_frame, child_frame : str

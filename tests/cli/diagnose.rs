@@ -221,7 +221,7 @@ fn bad_input_is_refused_and_leaves_nothing() {
         ),
         (
             format!("diagnose points.csv --wheel-radius 0.1 --vehicle {VEHICLE}"),
-            "--wheel-radius: points.csv holds steady points",
+            "speeds in m/s are those of the tracks already",
         ),
         (format!("diagnose points.csv --held-out 1 --vehicle {VEHICLE}"), "--held-out 1: a table"),
         (

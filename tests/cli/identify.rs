@@ -253,8 +253,12 @@ fn mistakes_are_named() {
             "--tracks: points.csv holds steady points",
         ),
         (
-            format!("identify points.csv --vehicle {vehicle} --wheel-radius 0.1 --tau 0"),
-            "--wheel-radius, --tau: points.csv holds steady points",
+            format!("identify points.csv --vehicle {vehicle} --mount-yaw 90 --tau 0"),
+            "--mount-yaw, --tau: points.csv holds steady points",
+        ),
+        (
+            format!("identify points.csv --vehicle {vehicle} --wheel-radius 0.1"),
+            "speeds in m/s are those of the tracks already",
         ),
         ("inspect empty".to_owned(), "recording.toml"),
     ] {

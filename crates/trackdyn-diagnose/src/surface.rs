@@ -6,8 +6,9 @@
 //! The table holds the twist minus the mean belt speed, divided by the difference of the belt
 //! speeds: this stays finite where one track holds the robot and the other ICR is at infinity.
 //! Where friction depends on slip speed, it holds the change of that by the laws of the shear
-//! stress, beside a table of the motion without them. With belts that slip on their sprockets, a load along the tracks costs speed even without a
-//! difference: then it is divided by the norm of the speeds.
+//! stress, beside a table of the motion without them. With belts that slip on their sprockets, a
+//! load along the tracks costs speed even without a difference: then it is divided by the norm of
+//! the speeds.
 
 mod table;
 

@@ -312,6 +312,12 @@ fn farthest(intervals: &Intervals, search: &ClockSearch) -> Option<Peak> {
     (fine.fit.correlation >= CLEAR_CORRELATION && !fine.is_at_end).then_some(fine)
 }
 
+/// Part of the variance of the turning of a recording, 1 − r², that a clock offset leaves, s.
+pub fn left_at(recording: &Recording, tau: f64) -> f64 {
+    let intervals = Intervals::new(&with_poses_every(recording, MIN_POSE_INTERVAL));
+    1.0 - intervals.fit(tau, 1).correlation.powi(2)
+}
+
 /// Estimates the clock offset.
 ///
 /// # Errors

@@ -8,6 +8,7 @@ use crate::left_over::LeftOver;
 use crate::observations::Observations;
 use crate::parameters::Parameters;
 use crate::response::Response;
+use crate::run_clocks::OtherClock;
 use crate::spin_test::SpinTest;
 use crate::weighting::SegmentNoise;
 use trackdyn_core::robust::quantile;
@@ -111,6 +112,8 @@ pub enum Contradiction {
         /// Size of the residuals without them over that with them.
         ratio: f64,
     },
+    /// A run whose poses are late by another time than those of all.
+    RunClock(OtherClock),
     /// The fit explains hardly any turning.
     Turning {
         /// Part of the turning that it leaves, of the segments that should turn most.

@@ -13,6 +13,7 @@ use crate::observations::Observations;
 use crate::parameters::{Free, Parameters};
 use crate::residual_noise::residual_noise;
 use crate::response::Response;
+use crate::run_clocks::OtherClock;
 use crate::scatter::scatter;
 use crate::sensor::Nuisance;
 use crate::separation::Separation;
@@ -146,6 +147,10 @@ pub fn identify_unless_stopped(
     let seen = Seen::of(recording, options)?;
     let Seen { observations, spin_test, response, .. } = &seen;
     let lever = options.gauge / 2.0;
+    let other_clock = match seen.clock {
+        Clock::Estimated(offset) => OtherClock::of(recording, offset.tau),
+        Clock::Given(_) | Clock::Unknown { .. } => None,
+    };
     let fit = |free: Free| -> Option<Fit> {
         let (gauge, genetic) = (options.gauge, &options.genetic);
         let genetic = genetic_unless_stopped(observations, gauge, lever, free, genetic, progress)?;
@@ -164,6 +169,7 @@ pub fn identify_unless_stopped(
             let mut found =
                 Contradiction::of_motions(estimate, genetic, spin, observations, noise, gauge);
             found.extend(Contradiction::of_response(estimate, response.as_ref()));
+            found.extend(other_clock.map(Contradiction::RunClock));
             found
         });
         Some(Fit {

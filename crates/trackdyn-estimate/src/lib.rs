@@ -25,6 +25,7 @@
 //! - [`gauss_newton`]: robust least squares, whatever the residuals are of.
 //! - [`mod@spin_test`], [`mod@genetic`], [`mod@least_squares`]: three ways to the parameters.
 //! - [`response`]: how the poses follow the track speeds over time.
+//! - [`run_clocks`]: runs with a clock of their own.
 //! - [`separation`]: the distance of the ICRs from turning alone.
 //! - [`steady`]: the parameters from a table of steady operating points.
 //! - [`identification`]: all of them on one recording; [`contradiction`]: where they do not agree.
@@ -56,6 +57,7 @@ pub mod prediction;
 pub mod regular;
 pub mod residual_noise;
 pub mod response;
+pub mod run_clocks;
 mod scatter;
 pub mod segment;
 pub mod sensor;

@@ -161,8 +161,21 @@ impl Robot {
             // gyration is far below the size of the robot.
             left.max(self.inertia[axis] / 10.0)
         });
-        (mass, place, inertia)
+        (mass, place, possible(inertia))
     }
+}
+
+/// Moments of inertia of which none exceeds the sum of the others, as of any body: the others are
+/// raised where one does.
+fn possible(mut inertia: [f64; 3]) -> [f64; 3] {
+    for axis in 0..3 {
+        let others = [(axis + 1) % 3, (axis + 2) % 3];
+        let missing = inertia[axis] - others.iter().map(|&other| inertia[other]).sum::<f64>();
+        for other in others {
+            inertia[other] += missing.max(0.0) / 2.0;
+        }
+    }
+    inertia
 }
 
 /// The model with the effects of a vehicle that are wanted.

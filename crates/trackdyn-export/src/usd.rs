@@ -180,6 +180,7 @@ fn rigid_body(
     {{
         point3f physics:centerOfMass = {}
         float3 physics:diagonalInertia = {}
+        quatf physics:principalAxes = (1, 0, 0, 0)
         float physics:mass = {}
         double3 xformOp:translate = {}
         uniform token[] xformOpOrder = [\"xformOp:translate\"]

@@ -149,7 +149,7 @@ pub(crate) fn error(ratio: f64) -> Option<f64> {
 
 /// The options by which speeds are read that were taken for those of the tracks, and are so many
 /// times those of the poses, or by which poses are. Units of wheels need a radius.
-pub(crate) fn remedy(ratio: f64) -> String {
+pub fn remedy(ratio: f64) -> String {
     with_poses(ratio, of_speeds(ratio))
 }
 

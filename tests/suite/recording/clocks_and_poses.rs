@@ -94,9 +94,10 @@ fn delays_are_no_clocks() {
 #[test]
 fn a_reset_of_the_simulation_begins_a_run() {
     let mut bag = Bag::default();
-    for start in [0.0, LENGTH + 10.0] {
-        wheels(&mut bag, start, |t| ns(t + 0.1));
-        drive(&mut bag, start, |t| ns(t + 0.1));
+    // What is told again by the same stamps would be a copy.
+    for (start, began) in [(0.0, 0.1), (LENGTH + 10.0, 0.14)] {
+        wheels(&mut bag, start, |t| ns(t + began));
+        drive(&mut bag, start, |t| ns(t + began));
     }
     let recording = read(bag, Dating::Any).expect("readable");
     assert_eq!(recording.runs().len(), 2);

@@ -159,7 +159,7 @@ pub fn settings(comparison: &Comparison, one: &Difference) -> Vec<String> {
             };
             let both: Vec<String> = one.group.numbers.iter().map(of).collect();
             vec![format!(
-                "the centre of gravity to that of the vehicle file, moved by {}",
+                "the centre of gravity to that of the vehicle file, moved by {} in all",
                 both.join(", ")
             )]
         }
@@ -198,7 +198,8 @@ fn sizes(comparison: &Comparison, one: &Difference, effect: EffectId) -> Vec<Str
 
 fn level(quantity: &Quantity) -> String {
     format!(
-        "both coefficients of friction times {}",
+        "the mean √(mu_x mu_y) of the friction to {} times that of SIM, in all: a ratio that is \
+         set changes it, too",
         with_interval(&factor(&quantity.difference), "1")
     )
 }
@@ -287,11 +288,13 @@ pub fn not_shown(comparison: &Comparison) -> Vec<String> {
     words.collect()
 }
 
-/// The smallest differences that would have shown.
+/// The smallest differences that would have shown, in units that a reader has at hand.
 pub fn smallest(comparison: &Comparison) -> String {
     let sizes = comparison.smallest.iter().filter_map(|one| {
         let parameter = &one.effect.card().parameters[one.parameter];
-        Some(format!("{} {:.2e}{}", one.effect, one.size?, parameter.unit_behind()))
+        let (size, key) = (one.size?, parameter.key);
+        let digits = decimals(size).min(MAX_DECIMALS);
+        Some(format!("{} {key} {size:.digits$}{}", one.effect, parameter.unit_behind()))
     });
     let sizes: Vec<String> = sizes.collect();
     let more = if sizes.len() > LISTED { ", ..." } else { "" };

@@ -47,9 +47,7 @@ impl Rivals {
         let without = search.in_forms_of(best, search.without(best, effect));
         let screened = search.screen(&without);
         let changed = support::change(effect, &without, best);
-        // What its refit did not keep, a rival need not promise.
         let own = screened.iter().find(|one| one.effect == effect).map_or(0.0, |one| one.gain);
-        let own = own.min(best.ln_evidence - without.ln_evidence);
         let is_close = |one: &&Screened| one.effect != effect && is_rival(one, own, best, settings);
         let close: Vec<&Screened> = screened.iter().filter(is_close).collect();
         // Where constant ICRs moved far, the linear screen does not see what else such a law does.

@@ -1,6 +1,6 @@
 //! Contradictions in words.
 
-use super::Contradiction;
+use super::{Contradiction, OtherClock};
 use std::fmt::{Display, Formatter, Result};
 use trackdyn_core::{PerSide, Side};
 use trackdyn_recording::unit;
@@ -58,7 +58,8 @@ impl Display for Contradiction {
                     Some((ratio, units)) => write!(
                         f,
                         "the track speeds are {ratio:.3} times what the poses show, as {units} \
-                         would be: check their unit (--speed-unit) and the wheel radius"
+                         would be: {}",
+                        unit::remedy(ratio)
                     ),
                     None => f.write_str(
                         "check the wheel radius, the unit (--speed-unit) and the joints, or drive \
@@ -71,6 +72,12 @@ impl Display for Contradiction {
                 "constant factors on the track speeds, {left:.3} left and {right:.3} right, leave \
                  {ratio:.1} times less than none, as slip does not: check wheel radii, gears and \
                  units of each side; the fit with these factors holds"
+            ),
+            Self::RunClock(OtherClock { run, tau, of_all }) => write!(
+                f,
+                "the poses of run {run} are {tau:.2} s late by themselves, and {of_all:.2} s where \
+                 all runs share one clock: take runs of one clock (--runs), or give their stamps \
+                 one"
             ),
             Self::Turning { left } => write!(
                 f,

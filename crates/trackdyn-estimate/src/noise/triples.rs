@@ -60,7 +60,8 @@ impl Group {
     }
 }
 
-/// Pose noise while the encoders of both sides show zero; `tau` is the clock offset of the poses, s.
+/// Pose noise while the encoders of both sides show zero; `tau` is the clock offset of the poses,
+/// s.
 pub(super) fn standing(recording: &Recording, tau: f64) -> Option<PoseNoise> {
     let mut groups: [Group; 4] = Default::default();
     for run in recording.runs() {

@@ -21,10 +21,8 @@ fn noisy(tau: f64, seed: u64) -> Synthetic {
 
 fn refusal(recording: &Recording) -> String {
     let error = clock_offset(recording, &ClockSearch::default()).expect_err("refused");
-    let expected = matches!(
-        error,
-        Error::NotEstimable { .. } | Error::Unlike { .. } | Error::Swapped { .. }
-    );
+    let expected =
+        matches!(error, Error::NotEstimable { .. } | Error::Unlike { .. } | Error::Swapped { .. });
     assert!(expected, "{error}");
     error.to_string()
 }

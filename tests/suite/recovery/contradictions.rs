@@ -196,3 +196,13 @@ fn wheel_odometry_with_errors_is_told_from_poses() {
     }
     assert!(computed([-0.4, 0.45], 0.005).is_empty());
 }
+
+/// A wheel radius that is wrong is no slip: the fit with factors is right, the other one is not.
+#[test]
+fn factors_that_explain_what_is_left_contradict_the_fit_without_them() {
+    let off = changed(3, |pose| pose, |speeds| speeds.map(|speed| 1.2 * speed));
+    let [icrs, with_alphas] = identified(&off, GAUGE).fits;
+    let is_of_factors = |of: &Contradiction| matches!(of, Contradiction::Factors { .. });
+    assert!(icrs.contradictions.iter().any(is_of_factors), "{:?}", icrs.contradictions);
+    assert!(with_alphas.contradictions.is_empty(), "{:?}", with_alphas.contradictions);
+}

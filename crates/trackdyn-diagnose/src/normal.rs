@@ -51,6 +51,18 @@ pub struct Solution {
     pub ln_evidence: f64,
 }
 
+impl Solution {
+    /// Rise of the minimum where these columns are moved by `by` while all others follow; ∞ where
+    /// they have no covariance.
+    ///
+    /// dᵀ Σ⁻¹ d, Σ their covariance
+    pub fn rise(&self, columns: &[usize], by: &DVector<f64>) -> f64 {
+        let covariance = self.covariance.select_rows(columns).select_columns(columns);
+        let solved = covariance.cholesky().map(|factor| factor.solve(by));
+        solved.map_or(f64::INFINITY, |solved| by.dot(&solved))
+    }
+}
+
 /// Normal prior of a column's factor, possibly truncated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prior {
@@ -374,6 +386,27 @@ fn sum(blocks: &[DMatrix<f64>], size: usize) -> DMatrix<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Columns are those of the solution, in whatever order they are asked for.
+    #[test]
+    fn moved_columns_raise_the_minimum_by_their_covariance() {
+        let covariance =
+            DMatrix::from_row_slice(3, 3, &[4.0, 0.0, 1.0, 0.0, 9.0, 0.0, 1.0, 0.0, 1.0]);
+        let solution = Solution {
+            estimate: DVector::zeros(3),
+            covariance,
+            misfit: 0.0,
+            gain: 0.0,
+            occam: 0.0,
+            ln_evidence: 0.0,
+        };
+        let rise =
+            |columns: &[usize], by: &[f64]| solution.rise(columns, &DVector::from_column_slice(by));
+        assert!((rise(&[1], &[6.0]) - 4.0).abs() < 1e-12);
+        // (1/3) [1 -1; -1 4]
+        assert!((rise(&[0, 2], &[2.0, 1.0]) - 4.0 / 3.0).abs() < 1e-12);
+        assert!((rise(&[2, 0], &[1.0, 2.0]) - 4.0 / 3.0).abs() < 1e-12);
+    }
 
     /// Three columns, the last of which is the sum of the others, and a zero column.
     #[test]

@@ -173,10 +173,6 @@ struct Held {
 
 impl Held {
     /// Sizes whose columns begin at `first` of a fit beside a hypothesis.
-    ///
-    /// # Law
-    /// Moved by d from their estimates, while all others follow, they raise the misfit by
-    /// dᵀ Σ⁻¹ d, Σ their covariance.
     fn of(fit: &Solution, first: usize, beside: &Hypothesis, variants: &[&Variant]) -> Self {
         let mut estimates = fit.estimate.iter().skip(first);
         let mut moved = Vec::new();
@@ -199,8 +195,7 @@ impl Held {
             return Self { sizes, rise: 0.0 };
         }
         let by = DVector::from(moved);
-        let covariance = fit.covariance.view((first, first), (by.len(), by.len())).into_owned();
-        let solved = covariance.cholesky().map(|factor| factor.solve(&by));
-        Self { sizes, rise: solved.map_or(f64::INFINITY, |solved| by.dot(&solved)) }
+        let columns: Vec<usize> = (first..first + by.len()).collect();
+        Self { sizes, rise: fit.rise(&columns, &by) }
     }
 }

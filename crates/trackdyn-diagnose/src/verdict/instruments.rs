@@ -4,7 +4,6 @@ use super::rivals::is_rival;
 use super::support::change;
 use super::{Basis, Support, Verdict, refusal, within_filed};
 use crate::fit::Fit;
-use crate::hypothesis::Hypothesis;
 use crate::progress::Cancelled;
 use crate::search::{Found, Screened, Search};
 use crate::settings::Settings;
@@ -21,7 +20,17 @@ pub fn judge_instruments(basis: &Basis, best: &Found) -> Result<Vec<Verdict>, Ca
     let Settings { verdict: rules, answer, .. } = search.settings();
     let mut verdicts = Vec::new();
     for &effect in &search.base.instruments {
-        if is_negligible(best, filed, effect, rules.min_ln_bayes_factor) {
+        let fit = &best.fit;
+        let columns: Vec<usize> =
+            (0..fit.unknowns.len()).filter(|&k| fit.unknowns[k].is_of(effect)).collect();
+        let parts: Vec<f64> = columns
+            .iter()
+            .map(|&k| {
+                let unknown = fit.unknowns[k];
+                fit.hypothesis.get(unknown) - filed.get(unknown)
+            })
+            .collect();
+        if is_negligible(fit, &columns, &parts, rules.min_ln_bayes_factor) {
             continue;
         }
         watch.go_on()?;
@@ -47,16 +56,6 @@ pub fn judge_instruments(basis: &Basis, best: &Found) -> Result<Vec<Verdict>, Ca
             }
         }
         one_of.sort_unstable();
-        let fit = &best.fit;
-        let columns: Vec<usize> =
-            (0..fit.unknowns.len()).filter(|&k| fit.unknowns[k].is_of(effect)).collect();
-        let parts: Vec<f64> = columns
-            .iter()
-            .map(|&k| {
-                let unknown = fit.unknowns[k];
-                fit.hypothesis.get(unknown) - filed.get(unknown)
-            })
-            .collect();
         let support = Support {
             ln_bayes_factor,
             z,
@@ -81,23 +80,10 @@ fn without_instrument(search: &Search, best: &Found, effect: EffectId) -> Found 
     search.with_own_starts(search.found(best.effects.clone(), fit))
 }
 
-/// Whether the fit itself says that an instrument effect as filed costs too little for a claim.
-///
-/// Its numbers are off by d, and lowering the others to their best costs dᵀ Σ⁻¹ d/2 of the log
-/// posterior, Σ their covariance. Half of a claim leaves room for what is not linear.
-fn is_negligible(best: &Found, filed: &Hypothesis, effect: EffectId, claim: f64) -> bool {
-    let fit = &best.fit;
-    let own = |&place: &usize| fit.unknowns[fit.free[place]].is_of(effect);
-    let places: Vec<usize> = (0..fit.free.len()).filter(own).collect();
-    if places.len() < fit.unknowns.iter().filter(|unknown| unknown.is_of(effect)).count() {
-        return false;
-    }
-    let off = places.iter().map(|&place| {
-        let unknown = fit.unknowns[fit.free[place]];
-        fit.hypothesis.get(unknown) - filed.get(unknown)
-    });
-    let off = DVector::from_iterator(places.len(), off);
-    let covariance = fit.solution.covariance.select_rows(&places).select_columns(&places);
-    let solved = covariance.cholesky().map(|factor| factor.solve(&off));
-    solved.is_some_and(|solved| off.dot(&solved) / 2.0 < claim / 2.0)
+/// Whether the fit itself says that an instrument effect as filed costs too little for a claim: its
+/// columns moved back by these parts cost less than half of one, which leaves room for what is not
+/// linear. Of numbers that are held at a bound the fit does not tell.
+fn is_negligible(fit: &Fit, columns: &[usize], parts: &[f64], claim: f64) -> bool {
+    let rise = || fit.solution.rise(columns, &DVector::from_column_slice(parts));
+    columns.iter().all(|column| fit.free.contains(column)) && rise() / 2.0 < claim / 2.0
 }

@@ -8,6 +8,7 @@ pub mod dual;
 pub mod frames;
 pub mod input;
 pub mod lines;
+pub mod named;
 pub mod output;
 pub mod plant;
 pub mod pose;

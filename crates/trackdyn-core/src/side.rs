@@ -61,6 +61,19 @@ impl<T> PerSide<T> {
     }
 }
 
+impl<T> PerSide<Option<T>> {
+    /// The value there is with its side; where both sides have one, what `both` makes of them, with
+    /// no side. None where there is none.
+    pub fn either(self, both: impl FnOnce(T, T) -> T) -> Option<(Option<Side>, T)> {
+        match (self.left, self.right) {
+            (Some(left), Some(right)) => Some((None, both(left, right))),
+            (Some(left), None) => Some((Some(Side::Left), left)),
+            (None, Some(right)) => Some((Some(Side::Right), right)),
+            (None, None) => None,
+        }
+    }
+}
+
 impl<T> std::ops::Index<Side> for PerSide<T> {
     type Output = T;
 

@@ -112,15 +112,10 @@ fn weak(search: &Search, best: &Found, effect: EffectId) -> Option<Verdict> {
         z: (without.fit.objective - best.fit.objective).max(0.0).sqrt(),
         ..Support::none()
     };
-    let needed = search.settings().verdict.min_ln_bayes_factor;
-    let Support { ln_bayes_factor, .. } = support;
-    (ln_bayes_factor < needed).then(|| Verdict {
-        effect,
-        one_of: vec![effect],
-        found: best.fit.hypothesis.effect(effect).cloned(),
-        support,
-        refused: Some(Refusal::Weak { ln_bayes_factor, needed }),
-    })
+    let refused = support.falls_short(&search.settings().verdict);
+    let refused = refused.filter(|refusal| refusal.rule() == Rule::BayesFactor)?;
+    let (one_of, found) = (vec![effect], best.fit.hypothesis.effect(effect).cloned());
+    Some(Verdict { effect, one_of, found, support, refused: Some(refused) })
 }
 
 /// Refusal by the statistical rules; none where all are met. `whole` is the √ of the decrease of

@@ -353,19 +353,19 @@ impl<'a> Seen<'a> {
             }
         };
         let fit = |by: &Weighting| fit_with_sensor(observations, &cut, noise, free, by, options);
-        let Fitted { estimate, refused, .. } = match (fit(weighting), weighting) {
+        let (estimate, refused) = match (fit(weighting), weighting) {
             (Fitted { estimate: Ok(first), cut, .. }, &Weighting::Noise(measured)) => {
                 let observed = cut.as_ref().unwrap_or(observations);
                 let by_scatter = Weighting::Noise(scatter(observed, &first, measured));
-                let again = fit(&by_scatter);
-                let observed = again.cut.as_ref().unwrap_or(observations);
-                let estimate = again.estimate.map(|estimate| {
+                let Fitted { estimate, cut, refused } = fit(&by_scatter);
+                let observed = cut.as_ref().unwrap_or(observations);
+                let beside_noise = |estimate: Estimate| {
                     let whitened_rms = whitened_rms(observed, &estimate, weighting);
                     Estimate { whitened_rms, ..estimate }
-                });
-                Fitted { estimate, cut: None, ..again }
+                };
+                (estimate.map(beside_noise), refused)
             }
-            (first, _) => first,
+            (Fitted { estimate, refused, .. }, _) => (estimate, refused),
         };
         let scale = |estimate: Estimate| {
             let (gap, [.., left, right]) = (estimate.gap(), estimate.parameters.0);

@@ -51,10 +51,11 @@ impl OtherClock {
         }
         let alone = recording.with_runs(vec![run.clone()]);
         let own = clock_offset(&alone, &ClockSearch::default()).ok()?;
-        let is_clear = own.correlation >= MIN_CORRELATION
-            && 1.0 - own.correlation.powi(2) <= MAX_LEFT * left_at(&alone, of_all);
         let found = Self { run: run.id(), tau: own.tau, of_all };
-        (is_clear && found.difference() > MIN_DIFFERENCE).then_some(found)
+        let is_another = found.difference() > MIN_DIFFERENCE
+            && own.correlation >= MIN_CORRELATION
+            && 1.0 - own.correlation.powi(2) <= MAX_LEFT * left_at(&alone, of_all);
+        is_another.then_some(found)
     }
 
     fn difference(&self) -> f64 {

@@ -5,6 +5,7 @@ use crate::parameters::{COUNT, Parameters};
 use crate::prediction::{Prediction, body_velocity, predict};
 use std::fmt;
 use std::str::FromStr;
+use trackdyn_core::named::by_name;
 
 /// A property of the pose sensor that is fitted beside the kinematic parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -69,9 +70,7 @@ impl FromStr for Nuisance {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let names = Self::ALL.map(Self::name).join(", ");
-        let found = Self::ALL.into_iter().find(|nuisance| nuisance.name() == text);
-        found.ok_or_else(|| format!("expected one of {names}"))
+        by_name(&Self::ALL, Self::name, text)
     }
 }
 

@@ -5,6 +5,7 @@ use crate::unit;
 use std::fmt;
 use std::str::FromStr;
 use trackdyn_core::Side;
+use trackdyn_core::named::by_name;
 
 /// A kind of doubt, by the name with which a user who knows better accepts it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,10 +62,7 @@ impl FromStr for DoubtKind {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        Self::ALL.into_iter().find(|kind| kind.name() == text).ok_or_else(|| {
-            let names = Self::ALL.map(Self::name);
-            format!("expected one of {}", names.join(", "))
-        })
+        by_name(&Self::ALL, Self::name, text)
     }
 }
 

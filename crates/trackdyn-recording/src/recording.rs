@@ -266,7 +266,17 @@ impl Recording {
     /// This recording with other runs, in the order of their ids. Its fingerprint stays that of the
     /// whole: it tells where the runs come from.
     pub fn with_runs(&self, runs: Vec<Run>) -> Self {
-        Self { runs, ..self.clone() }
+        Self {
+            name: self.name.clone(),
+            robot: self.robot.clone(),
+            runs,
+            stated_noise: self.stated_noise,
+            pose_frame: self.pose_frame,
+            source: self.source.clone(),
+            warnings: self.warnings.clone(),
+            fingerprint: self.fingerprint.clone(),
+            pose_fingerprint: self.pose_fingerprint.clone(),
+        }
     }
 
     /// Whether the positions of all poses are known; where they are not, only yaw was measured.

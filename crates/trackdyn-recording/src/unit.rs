@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt::{self, Write};
 use std::str::FromStr;
+use trackdyn_core::named::by_name;
 
 mod pose;
 
@@ -101,10 +102,7 @@ impl FromStr for SpeedUnit {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        Self::ALL.into_iter().find(|unit| unit.name() == text).ok_or_else(|| {
-            let names = Self::ALL.map(Self::name);
-            format!("expected one of {}", names.join(", "))
-        })
+        by_name(&Self::ALL, Self::name, text)
     }
 }
 

@@ -56,9 +56,14 @@ impl Done {
         let known = self.known(&key);
         known.unwrap_or_else(|| {
             let found = refit();
-            self.0.lock().unwrap_or_else(PoisonError::into_inner).push((key, found.clone()));
+            self.keep(key, &found);
             found
         })
+    }
+
+    /// Keeps the result of a refit.
+    pub fn keep(&self, key: Key, found: &Found) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push((key, found.clone()));
     }
 
     /// All results.

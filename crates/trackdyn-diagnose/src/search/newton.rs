@@ -53,7 +53,8 @@ impl Search {
         watch.go_on()?;
         let fit = Fit::from_point(best, &unknowns, &self.evidence);
         let found = self.recalibrated(effects, fit);
-        Ok(Some(self.done.or_else(Key::step(beside, Step::Newton), || found)))
+        self.done.keep(Key::step(beside, Step::Newton), &found);
+        Ok(Some(found))
     }
 }
 

@@ -3,14 +3,10 @@
 use super::{Contradiction, OtherClock};
 use std::fmt::{Display, Formatter, Result};
 use trackdyn_core::{PerSide, Side};
-use trackdyn_recording::unit;
+use trackdyn_recording::{PoseUnit, unit};
 
 /// χ of usual robots, by which units of length are named.
 const USUAL_EFFICIENCIES: [f64; 2] = [0.35, 0.95];
-
-/// Units of length, m, that poses and track speeds may share where the gauge is in m.
-const LENGTHS: [(f64, &str); 4] =
-    [(0.3048, "feet"), (0.0254, "inches"), (0.01, "centimetres"), (0.001, "millimetres")];
 
 impl Display for Contradiction {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
@@ -69,9 +65,9 @@ impl Display for Contradiction {
             }
             Self::Factors { alphas: PerSide { left, right }, ratio } => write!(
                 f,
-                "constant factors on the track speeds, {left:.3} left and {right:.3} right, leave \
-                 {ratio:.1} times less than none, as slip does not: check wheel radii, gears and \
-                 units of each side; the fit with these factors holds"
+                "with constant factors on the track speeds, {left:.3} left and {right:.3} right, \
+                 the residuals are {ratio:.1} times smaller, which no slip explains: check wheel \
+                 radii, gears and units of each side; the fit with these factors holds"
             ),
             Self::RunClock(OtherClock { run, tau, of_all }) => write!(
                 f,
@@ -105,17 +101,19 @@ fn apart(f: &mut Formatter<'_>, chi: f64) -> Result {
          cannot do: ",
         1.0 / chi
     )?;
-    let usual = |(unit, _): &&(f64, &str)| {
+    // Poses and track speeds may share a unit where the gauge is in m.
+    let usual = |unit: &PoseUnit| {
         let [low, high] = USUAL_EFFICIENCIES;
-        (low..high).contains(&(chi / unit))
+        (low..high).contains(&(chi / unit.factor()))
     };
     f.write_str("check the units of poses and track speeds (--speed-unit)")?;
-    if let Some((unit, name)) = LENGTHS.iter().find(usual) {
+    if let Some(unit) = PoseUnit::ALL.into_iter().rev().find(usual) {
         write!(
             f,
-            ", which in {name} would make it {:.2} (--columns reads lengths in ft, cm \
+            ", which in {} would make it {:.2} (--columns reads lengths in ft, cm \
              and mm)",
-            chi / unit
+            unit.word(),
+            chi / unit.factor()
         )?;
     }
     f.write_str(", and the gauge")

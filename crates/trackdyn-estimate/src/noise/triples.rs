@@ -16,7 +16,7 @@ const STEPS: [usize; 4] = [1, 2, 4, 8];
 const MAX_DURATION: f64 = 2.5;
 
 /// Largest turn between two poses of a triple, rad: the propagation of noise through
-/// [`Pose::log`] is that of small turns.
+/// [`trackdyn_core::Pose::log`] is that of small turns.
 const MAX_TURN: f64 = 1.0;
 
 /// Smallest number of triples for an estimate.

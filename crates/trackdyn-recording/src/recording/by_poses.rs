@@ -10,6 +10,7 @@ use super::linear::MIN_PIECE;
 use super::motion::{DELAY_STEP, DELAYS, Piece, pieces_of, thinned};
 use crate::hold::{holding, travelled};
 use nalgebra::{Matrix2, Vector2};
+use std::cell::OnceCell;
 use trackdyn_core::PerSide;
 
 /// Fewest pieces for an explanation.
@@ -34,19 +35,38 @@ pub(super) struct Row {
     pub(super) changes: PerSide<f64>,
 }
 
-/// The rows of all runs, for each delay of the poses that is tried.
-pub(super) fn rows_by_delay(runs: &[Run]) -> Vec<Vec<Row>> {
-    let pieces: Vec<Vec<Piece>> = runs.iter().map(|run| pieces_of(run, MIN_PIECE)).collect();
-    let at = |delay: f64| -> Vec<Row> {
+/// The rows of all runs by the delay of the poses, each found when it is asked for.
+pub(super) struct ByDelay<'a> {
+    runs: &'a [Run],
+    pieces: OnceCell<Vec<Vec<Piece>>>,
+    /// Delays that are tried, s, the likelier first, with their rows.
+    rows: Vec<(f64, OnceCell<Vec<Row>>)>,
+}
+
+impl<'a> ByDelay<'a> {
+    pub(super) fn new(runs: &'a [Run]) -> Self {
+        let delays = DELAYS.map(|step| DELAY_STEP * f64::from(step)).chain(LONG_DELAYS);
+        let mut rows: Vec<_> = delays.map(|delay| (delay, OnceCell::new())).collect();
+        rows.sort_by(|(a, _), (b, _)| a.abs().total_cmp(&b.abs()));
+        Self { runs, pieces: OnceCell::new(), rows }
+    }
+
+    /// The rows at each delay that has enough of them.
+    pub(super) fn rows(&self) -> impl Iterator<Item = &[Row]> {
+        let all = self.rows.iter().map(|(delay, rows)| &rows.get_or_init(|| self.at(*delay))[..]);
+        all.filter(|rows| rows.len() >= MIN_PIECES)
+    }
+
+    fn at(&self, delay: f64) -> Vec<Row> {
+        let pieces = || self.runs.iter().map(|run| pieces_of(run, MIN_PIECE)).collect();
+        let pieces = self.pieces.get_or_init(pieces);
         let of_run = |(run, pieces): (&Run, &Vec<Piece>)| -> Vec<Row> {
             let covered = thinned(pieces, MAX_PIECES);
             let covered = covered.filter(|piece| piece.is_covered(run.tracks(), delay));
             covered.filter_map(|piece| row(run, piece, delay)).collect()
         };
-        runs.iter().zip(&pieces).flat_map(of_run).collect()
-    };
-    let delays = DELAYS.map(|step| DELAY_STEP * f64::from(step)).chain(LONG_DELAYS);
-    delays.map(at).filter(|rows| rows.len() >= MIN_PIECES).collect()
+        self.runs.iter().zip(pieces).flat_map(of_run).collect()
+    }
 }
 
 /// The row of a piece that readings cover.
@@ -60,6 +80,11 @@ fn row(run: &Run, piece: &Piece, delay: f64) -> Option<Row> {
         ways: travelled(tracks, piece.start, piece.end, delay),
         changes: PerSide::new(last.left - first.left, last.right - first.right),
     })
+}
+
+/// The larger parts of those of two sides.
+pub(super) fn larger(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0].max(b[0]), a[1].max(b[1])]
 }
 
 /// Part of the squares of a number of the rows that no p s + q φ explains.

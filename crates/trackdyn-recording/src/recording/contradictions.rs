@@ -4,6 +4,7 @@
 //! Every finding is a ratio or a correlation over many stretches of a recording, so that neither
 //! slip nor single wrong readings decide. What slip can explain is left alone.
 
+use super::by_poses::ByDelay;
 use super::linear::{self, Linear};
 use super::motion::Following;
 use super::stretches::{Stretch, path_extent, stretches};
@@ -188,13 +189,14 @@ pub(super) fn of_runs(runs: &[Run]) -> Vec<Doubt> {
     let stuck = stuck::stuck_poses(runs, explained);
     let orientation = if stuck.is_none() { orientation(runs) } else { None };
     let mut doubts: Vec<Doubt> = runs.iter().find_map(of_times).into_iter().collect();
-    doubts.extend(counted::of(runs));
+    let by_delay = ByDelay::new(runs);
+    doubts.extend(counted::of(runs, &by_delay));
     doubts.extend(jumps::of(runs));
     doubts.extend(stuck.or(orientation));
     doubts.extend(turn_in_degrees(runs));
     doubts.extend(idle::dead_encoder(runs, &late));
     doubts.extend(travel(runs, &stretches));
-    doubts.extend(unsigned::of(runs));
+    doubts.extend(unsigned::of(runs, &by_delay));
     doubts.extend(of_columns(runs));
     doubts.extend(signs(&stretches, &late));
     doubts

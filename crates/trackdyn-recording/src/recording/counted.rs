@@ -6,7 +6,7 @@
 //! are changes that are far larger than nearly all others, and are left out.
 
 use super::Run;
-use super::by_poses::{Row, rows_by_delay, unexplained};
+use super::by_poses::{ByDelay, Row, larger, unexplained};
 use crate::doubt::Doubt;
 use trackdyn_core::robust::quantile;
 use trackdyn_core::{PerSide, Side};
@@ -22,28 +22,24 @@ const NEARLY_ALL: f64 = 0.9;
 const MIN_WRAP: f64 = 5.0;
 
 /// Sides of which positions were taken for speeds.
-pub(super) fn of(runs: &[Run]) -> Option<Doubt> {
+pub(super) fn of(runs: &[Run], by_delay: &ByDelay) -> Option<Doubt> {
     if !runs.iter().all(Run::has_positions) {
         return None;
     }
-    let rows = rows_by_delay(runs);
-    let found = PerSide::from_fn(|side: Side| is_counted(&rows, side));
-    let side = match (found.left, found.right) {
-        (Some(_), Some(_)) => None,
-        (Some(_), None) => Some(Side::Left),
-        (None, Some(_)) => Some(Side::Right),
-        (None, None) => return None,
-    };
-    let both = [found.left, found.right].into_iter().flatten();
-    let worse = both.reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])])?;
-    Some(Doubt::Positions { side, unexplained: worse })
+    let found = PerSide::from_fn(|side: Side| is_counted(by_delay, side));
+    let (side, unexplained) = found.either(larger)?;
+    Some(Doubt::Positions { side, unexplained })
 }
 
 /// What the poses leave of a number and of its changes; none where it is no position.
-fn is_counted(rows: &[Vec<Row>], side: Side) -> Option<[f64; 2]> {
-    let least =
-        |of: &dyn Fn(&[Row]) -> f64| rows.iter().map(|rows| of(rows)).min_by(f64::total_cmp);
-    let as_speed = least(&|rows| unexplained(rows, |row| row.ways[side]))?;
+fn is_counted(by_delay: &ByDelay, side: Side) -> Option<[f64; 2]> {
+    let of_speed = |rows: &[Row]| unexplained(rows, |row| row.ways[side]);
+    // Of most logs the first delay says so.
+    if by_delay.rows().any(|rows| of_speed(rows) < MIN_UNEXPLAINED) {
+        return None;
+    }
+    let least = |of: &dyn Fn(&[Row]) -> f64| by_delay.rows().map(of).min_by(f64::total_cmp);
+    let as_speed = least(&of_speed)?;
     let as_position = least(&|rows| {
         let mut sizes: Vec<f64> = rows.iter().map(|row| row.changes[side].abs()).collect();
         let limit = MIN_WRAP * quantile(&mut sizes, NEARLY_ALL).unwrap_or_default();
@@ -52,8 +48,7 @@ fn is_counted(rows: &[Vec<Row>], side: Side) -> Option<[f64; 2]> {
         let moves = rows.iter().any(|row| row.changes[side] != 0.0);
         if moves { unexplained(&rows, |row| row.changes[side]) } else { 1.0 }
     })?;
-    (as_speed >= MIN_UNEXPLAINED && as_position <= MAX_UNEXPLAINED)
-        .then_some([as_speed, as_position])
+    (as_position <= MAX_UNEXPLAINED).then_some([as_speed, as_position])
 }
 
 #[cfg(test)]
@@ -91,7 +86,7 @@ mod tests {
 
     /// The sides that are said to be positions.
     fn found(runs: &[Run]) -> Vec<Side> {
-        match of(runs) {
+        match of(runs, &ByDelay::new(runs)) {
             Some(Doubt::Positions { side: Some(side), .. }) => vec![side],
             Some(Doubt::Positions { side: None, .. }) => Side::BOTH.to_vec(),
             _ => Vec::new(),

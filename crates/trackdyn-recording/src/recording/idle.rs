@@ -34,13 +34,8 @@ const DELAYS: [f64; 5] = [-0.5, 0.0, 0.25, 0.5, 1.0];
 /// A side that shows one speed all the time, and poses that contradict it.
 pub(super) fn dead_encoder(runs: &[Run], late: &dyn Fn(f64) -> Vec<Stretch>) -> Option<Doubt> {
     let speed = PerSide::from_fn(|side: Side| constant_speed(runs, side));
-    let dead = match [speed.left, speed.right] {
-        [None, None] => return None,
-        [Some(_), Some(_)] => None,
-        [Some(_), None] => Some(Side::Left),
-        [None, Some(_)] => Some(Side::Right),
-    };
-    let is_explained = DELAYS.iter().any(|&delay| are_explained(&late(delay), dead));
+    let (side, of_dead) = speed.either(|left, _| left)?;
+    let is_explained = DELAYS.iter().any(|&delay| are_explained(&late(delay), side));
     if is_explained {
         return None;
     }
@@ -48,8 +43,7 @@ pub(super) fn dead_encoder(runs: &[Run], late: &dyn Fn(f64) -> Vec<Stretch>) -> 
         let duration = runs.iter().map(Run::duration).sum();
         return Some(Doubt::StoodStill { duration });
     }
-    let speed = speed.left.or(speed.right).unwrap_or(0.0);
-    Some(Doubt::DeadEncoder { side: dead, speed })
+    Some(Doubt::DeadEncoder { side, speed: of_dead })
 }
 
 /// Whether the poses of a run show nothing but noise. Of white noise, steps have twice the variance

@@ -9,7 +9,7 @@
 //! they are one.
 
 use super::Run;
-use super::by_poses::{Row, rows_by_delay, unexplained};
+use super::by_poses::{ByDelay, Row, larger, unexplained};
 use crate::doubt::Doubt;
 use trackdyn_core::{PerSide, Side};
 
@@ -39,21 +39,15 @@ struct Unsigned {
 }
 
 /// Sides whose speeds never change their sign while the poses say that they have to.
-pub(super) fn of(runs: &[Run]) -> Option<Doubt> {
+pub(super) fn of(runs: &[Run], by_delay: &ByDelay) -> Option<Doubt> {
     let asked = PerSide::from_fn(|side: Side| keeps_its_sign(runs, side));
     if !(asked.left || asked.right) || !runs.iter().all(Run::has_positions) {
         return None;
     }
-    let rows = rows_by_delay(runs);
     let found =
-        PerSide::from_fn(|side: Side| if asked[side] { unsigned(&rows, side) } else { None });
-    let (side, of) = match (found.left, found.right) {
-        (Some(left), Some(right)) => (None, left.worse(right)),
-        (Some(left), None) => (Some(Side::Left), left),
-        (None, Some(right)) => (Some(Side::Right), right),
-        (None, None) => return None,
-    };
-    Some(Doubt::Unsigned { side, share: of.share, unexplained: of.unexplained })
+        PerSide::from_fn(|side: Side| if asked[side] { unsigned(by_delay, side) } else { None });
+    let (side, Unsigned { share, unexplained }) = found.either(Unsigned::worse)?;
+    Some(Doubt::Unsigned { side, share, unexplained })
 }
 
 /// Whether nearly all of the way of a side has one sign.
@@ -65,13 +59,13 @@ fn keeps_its_sign(runs: &[Run], side: Side) -> bool {
 }
 
 /// What is found of a side; none where its speeds may have a sign.
-fn unsigned(rows: &[Vec<Row>], side: Side) -> Option<Unsigned> {
+fn unsigned(by_delay: &ByDelay, side: Side) -> Option<Unsigned> {
     let least = |a: &[f64; 2], b: &[f64; 2]| a[0].total_cmp(&b[0]);
-    let as_read = rows.iter().map(|rows| unexplained(rows, |row| row.ways[side]));
+    let as_read = by_delay.rows().map(|rows| unexplained(rows, |row| row.ways[side]));
     let as_read = as_read.min_by(f64::total_cmp)?;
     let levers = (0..LEVERS).map(|k| side.sign() * MIN_LEVER * LEVER_RATIO.powi(k));
-    let tried =
-        levers.flat_map(|lever| rows.iter().map(move |rows| left_with_signs(rows, side, lever)));
+    let tried = levers
+        .flat_map(|lever| by_delay.rows().map(move |rows| left_with_signs(rows, side, lever)));
     let [with_signs, share] = tried.min_by(least)?;
     let is_found = as_read >= MIN_UNEXPLAINED
         && with_signs <= MAX_UNEXPLAINED.min(MAX_LEFT * as_read)
@@ -102,8 +96,8 @@ fn left_with_signs(rows: &[Row], side: Side, lever: f64) -> [f64; 2] {
 impl Unsigned {
     /// The larger numbers of both.
     fn worse(self, other: Self) -> Self {
-        let [a, b] = [self.unexplained, other.unexplained];
-        Self { share: self.share.max(other.share), unexplained: [a[0].max(b[0]), a[1].max(b[1])] }
+        let unexplained = larger(self.unexplained, other.unexplained);
+        Self { share: self.share.max(other.share), unexplained }
     }
 }
 
@@ -185,7 +179,7 @@ mod tests {
     const USUAL: [f64; 3] = [0.01, 0.01, 0.01];
 
     fn found(runs: &[Run]) -> Option<(Option<Side>, f64)> {
-        match of(runs) {
+        match of(runs, &ByDelay::new(runs)) {
             Some(Doubt::Unsigned { side, share, .. }) => Some((side, share)),
             _ => None,
         }

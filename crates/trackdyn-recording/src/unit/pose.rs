@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::str::FromStr;
+use trackdyn_core::named::by_name;
 
 /// Unit of the positions of poses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -36,7 +37,7 @@ impl PoseUnit {
     }
 
     /// Its name in a sentence.
-    fn word(self) -> &'static str {
+    pub fn word(self) -> &'static str {
         match self {
             Self::Metres => "metres",
             Self::Millimetres => "millimetres",
@@ -82,9 +83,6 @@ impl FromStr for PoseUnit {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        Self::ALL.into_iter().find(|unit| unit.name() == text).ok_or_else(|| {
-            let names = Self::ALL.map(Self::name);
-            format!("expected one of {}", names.join(", "))
-        })
+        by_name(&Self::ALL, Self::name, text)
     }
 }

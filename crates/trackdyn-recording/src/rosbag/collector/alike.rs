@@ -9,6 +9,7 @@
 use super::turns;
 use crate::rosbag::date::Received;
 use trackdyn_core::real;
+use trackdyn_core::robust::quantile;
 
 /// Largest ratio of Σ(a − b)² to (Σa² + Σb²)/2.
 const MAX_DIFFERENCE: f64 = 0.2;
@@ -132,12 +133,11 @@ pub(super) fn ratio_all_along(a: &[f64], b: &[f64]) -> Option<f64> {
     let size = (both().map(|(_, b)| b * b).sum::<f64>() / real(both().count().max(1))).sqrt();
     let is_fast = |(_, b): &(&f64, &f64)| b.abs() >= MIN_SPEED * size && size > 0.0;
     let mut ratios: Vec<f64> = both().filter(is_fast).map(|(a, b)| a / b).collect();
-    ratios.sort_by(f64::total_cmp);
-    let count = ratios.len();
-    if count < MIN_RATIOS {
+    if ratios.len() < MIN_RATIOS {
         return None;
     }
-    let [lower, ratio, upper] = [count / 4, count / 2, count * 3 / 4].map(|at| ratios[at]);
+    let [lower, ratio, upper] = [0.25, 0.5, 0.75].map(|share| quantile(&mut ratios, share));
+    let (lower, ratio, upper) = (lower?, ratio?, upper?);
     (lower > 0.0 && upper <= MAX_QUARTILE_RATIO * lower).then_some(ratio)
 }
 

@@ -136,8 +136,8 @@ impl Sources<'_> {
 
     /// Takes positions from the unit of the user; those of fixes are made in metres.
     fn in_metres(&self, topic: &str, poses: &mut Rows) {
-        let is_fix = |of: &&Topic| of.name == topic && of.layout() == Some(Layout::Fix);
-        if self.seen.iter().any(|of| is_fix(&of)) {
+        let is_fix = |of: &Topic| of.name == topic && of.layout() == Some(Layout::Fix);
+        if self.seen.iter().any(is_fix) {
             return;
         }
         for pose in poses {

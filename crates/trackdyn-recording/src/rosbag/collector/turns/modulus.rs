@@ -84,12 +84,12 @@ impl Modulus {
                 (!beside.is_empty()).then(|| steps[k].abs() - steps[k].signum() * turned)
             })
             .collect();
+        let unless_aliased = |modulus: f64| {
+            let is_aliased = is_aliased(&steps, modulus, moving);
+            if is_aliased { Self::Unclear(range) } else { Self::Of(modulus) }
+        };
         if let Some(modulus) = of_counter(positions, range, &told) {
-            return if is_aliased(&steps, modulus, moving) {
-                Self::Unclear(range)
-            } else {
-                Self::Of(modulus)
-            };
+            return unless_aliased(modulus);
         }
         if jumps.len() < MIN_JUMPS {
             return Self::Unknown;
@@ -104,12 +104,7 @@ impl Modulus {
             && error <= MAX_ERROR * modulus
             && range <= MAX_RANGE * modulus + POSITION_ROUNDING;
         if is_told {
-            let modulus = rounded(modulus, error, positions);
-            return if is_aliased(&steps, modulus, moving) {
-                Self::Unclear(range)
-            } else {
-                Self::Of(modulus)
-            };
+            return unless_aliased(rounded(modulus, error, positions));
         }
         if real(jumps.len()) > MIN_JUMP_SHARE * real(moving) {
             return Self::Unclear(range);

@@ -252,7 +252,7 @@ impl fmt::Display for Doubt {
                  other, more than radians can: degrees, or a gyroscope in degrees per second"
             ),
             Self::Reversed(side) => {
-                let side = if *side == Side::Left { "left" } else { "right" };
+                let side = side.name();
                 write!(f, "the {side} side counts backwards: the poses drive where tracks turn")
             }
             Self::BothReversed => {

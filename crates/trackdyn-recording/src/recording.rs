@@ -11,6 +11,7 @@ mod clock_rate;
 mod content;
 mod contradictions;
 mod counted;
+mod cut_off;
 mod dead;
 mod finding;
 mod frozen;
@@ -151,6 +152,7 @@ impl Recording {
             clock_rate::take_off(&mut kept, &mut cleanings);
             frozen::leave_out(&mut kept, &mut cleanings);
             saturated::leave_out(&mut kept, &mut cleanings);
+            cut_off::mend(&mut kept, &mut cleanings);
             bias::take_off(&mut kept, &mut cleanings);
             warnings.extend(gyro_unit::leave_out(&mut kept));
             stuck_gyro::leave_out(&mut kept, &mut cleanings);

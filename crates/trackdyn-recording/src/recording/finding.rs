@@ -5,6 +5,9 @@ use std::fmt;
 use trackdyn_core::Side;
 use trackdyn_core::lines::counted;
 
+/// Steps that differ by less, as share of them, are one.
+const ROUNDING: f64 = 1e-6;
+
 /// One kind of finding in one series, gathered over the runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cleaning {
@@ -87,6 +90,12 @@ pub enum Finding {
         /// The speed, m/s.
         speed: f64,
     },
+    /// Readings that are cut off to whole steps, towards zero: half a step is added to those that
+    /// are not zero.
+    CutOff {
+        /// The step, m/s.
+        step: f64,
+    },
 }
 
 impl Finding {
@@ -104,15 +113,20 @@ impl Finding {
                 | Self::StuckGyroscope { .. }
                 | Self::Saturated { .. }
                 | Self::Biased { .. }
+                | Self::CutOff { .. }
         )
     }
 }
 
 impl Finding {
-    /// Whether another one is gathered with it: of one kind, and of one side where it has one.
+    /// Whether another one is gathered with it: of one kind, and of one side or step where it has
+    /// one.
     fn is_like(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Biased { side, .. }, Self::Biased { side: other, .. }) => side == other,
+            (Self::CutOff { step }, Self::CutOff { step: other }) => {
+                (step - other).abs() <= ROUNDING * step
+            }
             _ => std::mem::discriminant(self) == std::mem::discriminant(other),
         }
     }
@@ -204,14 +218,18 @@ impl fmt::Display for Cleaning {
                  poses show that its track runs faster (a limit of the encoder or of a message), \
                  left out"
             )?,
-            Finding::Biased { side, speed } => {
-                let side = if side == Side::Left { "left" } else { "right" };
-                write!(
-                    f,
-                    "readings of the {side} side are {speed:+.3} m/s off all the time, also at \
-                     rest, by what the poses show (a bias), which is taken off"
-                )?;
-            }
+            Finding::Biased { side, speed } => write!(
+                f,
+                "readings of the {} side are {speed:+.3} m/s off all the time, also at rest, by \
+                 what the poses show (a bias), which is taken off",
+                side.name()
+            )?,
+            Finding::CutOff { step } => write!(
+                f,
+                "readings are cut off to multiples of {step:.4} m/s, towards zero, by what the \
+                 poses show (a speed as an integer): half a step is added to those that are not \
+                 zero; odometry that reads them needs the same"
+            )?,
         }
         write!(f, " ({}, first at t = {t:.3} s of run {run})", counted(*runs, "run"))
     }

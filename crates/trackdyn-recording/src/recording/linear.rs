@@ -75,9 +75,8 @@ impl Linear {
             Some([of(0)?, of(1)?])
         };
         let all = both(&rows, &|_| true)?;
-        let part = |k: usize| k * PARTS / rows.len();
         let without: Option<Vec<_>> =
-            (0..PARTS).map(|left_out| both(&rows, &|k| part(k) != left_out)).collect();
+            (0..PARTS).map(|left_out| both(&rows, &|k| part(k, rows.len()) != left_out)).collect();
         Some(Self { all, delay, without: without? })
     }
 
@@ -93,14 +92,48 @@ impl Linear {
         })
     }
 
+    /// Factors of another column in place of the time, by the turn and by the way forward, with
+    /// their standard errors; none where it does not run apart from the sides. The pieces are the
+    /// usual ones.
+    pub(super) fn factors(
+        &self,
+        runs: &[Run],
+        column: &dyn Fn(usize, &Piece) -> [f64; 2],
+    ) -> Option<[[f64; 2]; 2]> {
+        let pieces: Vec<Vec<Piece>> = runs.iter().map(|run| pieces_of(run, MIN_PIECE)).collect();
+        let factor = |channel: usize| -> Option<[f64; 2]> {
+            let of_piece = |run: usize, piece: &Piece| column(run, piece)[channel];
+            let rows = rows_with(runs, &pieces, self.delay, &|_, _, _| false, &of_piece);
+            let weights = weights(&rows, channel);
+            let without = |left_out: usize| {
+                let weight =
+                    |k: usize| if part(k, rows.len()) == left_out { 0.0 } else { weights[k] };
+                Some(solved(&rows, &weight, channel)?.z)
+            };
+            let all = solved(&rows, &|k| weights[k], channel)?.z;
+            Some([all, jackknifed(&(0..PARTS).map(without).collect::<Option<Vec<_>>>()?)])
+        };
+        Some([factor(0)?, factor(1)?])
+    }
+
     /// A number of the fit with its standard error.
     pub(super) fn number(&self, of: impl Fn(&[Vector3<f64>; 2]) -> f64) -> [f64; 2] {
         let without: Vec<f64> = self.without.iter().map(&of).collect();
-        let count = real(without.len());
-        let mean = without.iter().sum::<f64>() / count;
-        let scatter: f64 = without.iter().map(|value| (value - mean).powi(2)).sum();
-        [of(&self.all), (scatter * (count - 1.0) / count).sqrt()]
+        [of(&self.all), jackknifed(&without)]
     }
+}
+
+/// Standard error of a number by its values without each of the parts.
+fn jackknifed(without: &[f64]) -> f64 {
+    let count = real(without.len());
+    let mean = without.iter().sum::<f64>() / count;
+    let scatter: f64 = without.iter().map(|value| (value - mean).powi(2)).sum();
+    (scatter * (count - 1.0) / count).sqrt()
+}
+
+/// The part that one of so many rows belongs to.
+fn part(row: usize, of: usize) -> usize {
+    row * PARTS / of
 }
 
 /// o_l and o_r of a fit, m/s.
@@ -117,13 +150,24 @@ fn rows(
     delay: f64,
     is_left_out: &dyn Fn(usize, &Piece, f64) -> bool,
 ) -> Vec<Row> {
+    rows_with(runs, pieces, delay, is_left_out, &|_, piece| piece.end - piece.start)
+}
+
+/// The rows of pieces whose readings are at hand, with another column in place of the time.
+fn rows_with(
+    runs: &[Run],
+    pieces: &[Vec<Piece>],
+    delay: f64,
+    is_left_out: &dyn Fn(usize, &Piece, f64) -> bool,
+    column: &dyn Fn(usize, &Piece) -> f64,
+) -> Vec<Row> {
     let of_run = |(index, (run, pieces)): (usize, (&Run, &Vec<Piece>))| -> Vec<Row> {
         let is_taken = |piece: &&Piece| {
             piece.is_covered(run.tracks(), delay) && !is_left_out(index, piece, delay)
         };
         let row = |piece: &Piece| {
             let ways = travelled(run.tracks(), piece.start, piece.end, delay);
-            let of = Vector3::new(ways.left, ways.right, piece.end - piece.start);
+            let of = Vector3::new(ways.left, ways.right, column(index, piece));
             (of, [piece.turn, piece.arc()])
         };
         thinned(pieces, MAX_PIECES).filter(is_taken).map(row).collect()

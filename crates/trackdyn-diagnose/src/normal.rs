@@ -297,16 +297,25 @@ impl Normal {
         let size = self.total.nrows();
         let Some(factor) = self.factored(base, precisions) else { return self.clone() };
         let right = DMatrix::from_fn(base.len(), of.len(), |a, j| self.total[(base[a], of[j])]);
-        let solved = factor.solve(&right);
-        // T = 1 − P, with P the factors of the base columns in every other column
-        let mut transform = DMatrix::identity(size, size);
-        for (a, &i) in base.iter().enumerate() {
-            for (b, &j) in of.iter().enumerate() {
-                transform[(i, j)] -= solved[(a, b)];
+        // P, the factors of the base columns in every other column
+        let factors = factor.solve(&right);
+        let transposed = factors.transpose();
+        let project = |block: &DMatrix<f64>| {
+            // T = 1 − P: B T = B − B P, then Tᵀ (B T) = B T − Pᵀ (B T)
+            let mut projected = block.clone();
+            let taken = block.select_columns(base) * &factors;
+            for (&k, taken) in of.iter().zip(taken.column_iter()) {
+                let mut column = projected.column_mut(k);
+                column -= taken;
             }
-        }
-        let mut blocks: Vec<DMatrix<f64>> =
-            self.blocks.iter().map(|block| transform.tr_mul(block) * &transform).collect();
+            let taken = &transposed * projected.select_rows(base);
+            for (&k, taken) in of.iter().zip(taken.row_iter()) {
+                let mut row = projected.row_mut(k);
+                row -= taken;
+            }
+            projected
+        };
+        let mut blocks: Vec<DMatrix<f64>> = self.blocks.par_iter().map(project).collect();
         let total = sum(&blocks, size);
         // A column explained up to rounding is set to zero: its rest has no sign and no inverse.
         let is_gone =

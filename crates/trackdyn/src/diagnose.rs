@@ -16,6 +16,7 @@ use crate::viewer::{self, Layers};
 use crate::{
     Change, Error, MethodSettings, Observer, Progress, Provenance, Recording, Vehicle, unobserved,
 };
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use trackdyn_diagnose::{DiagnosisFile, Evidence, Options, Resampling, Status};
 use trackdyn_estimate::Contradiction;
@@ -363,8 +364,9 @@ impl Diagnosis {
         folder.write("diagnosis.toml", self.file(provenance).to_toml().as_bytes())?;
         folder.write(CORRECTED, self.corrected_toml(provenance).as_bytes())?;
         let Report { figures, html } = self.report(provenance)?;
-        for figure in &figures {
-            folder.write(&figure.file(), &figure.to_small_png()?)?;
+        let drawn: Vec<Result<Vec<u8>, _>> = figures.par_iter().map(Figure::to_small_png).collect();
+        for (figure, drawn) in figures.iter().zip(drawn) {
+            folder.write(&figure.file(), &drawn?)?;
         }
         viewer::remove_earlier(&mut folder, REPORT, LAYERS)?;
         let is_drawn = |file: &str| figures.iter().any(|figure| figure.file() == file);

@@ -4,13 +4,13 @@ use std::sync::LazyLock;
 use trackdyn_core::document::Document;
 use trackdyn_diagnose::Resampling;
 use trackdyn_diagnose::compare::document::ComparisonFile;
-use trackdyn_diagnose::compare::{Comparison, Status, Subject, compare};
+use trackdyn_diagnose::compare::{Comparison, Status, Subject, Which, compare};
 use trackdyn_diagnose::diagnosis::Examination;
 use trackdyn_diagnose::progress::Watch;
 use trackdyn_drive::sensors::Preset;
 use trackdyn_drive::{ScheduleKind, ScheduleOptions};
 use trackdyn_model::kinematics::Source;
-use trackdyn_model::{EffectId, Vehicle};
+use trackdyn_model::{EffectId, Vehicle, VehicleFile};
 use trackdyn_tests::concealed::{Drive, examined, owned, sensors};
 
 const RUNS: usize = 4;
@@ -19,6 +19,16 @@ const RUN_TIME: f64 = 12.0;
 /// Drives by hand of this robot, with this concealed, examined against the vehicle as its owner
 /// knows it.
 fn set(concealed: &[&str], seed: u64, change: impl FnOnce(&mut Vehicle)) -> Examination {
+    set_of(&owned(&[]), concealed, seed, change)
+}
+
+/// As [`set`], of another vehicle file.
+fn set_of(
+    file: &VehicleFile,
+    concealed: &[&str],
+    seed: u64,
+    change: impl FnOnce(&mut Vehicle),
+) -> Examination {
     let options = ScheduleOptions {
         runs: Some(RUNS),
         seed,
@@ -26,19 +36,21 @@ fn set(concealed: &[&str], seed: u64, change: impl FnOnce(&mut Vehicle)) -> Exam
         ..ScheduleOptions::default()
     };
     let runs = ScheduleKind::Manual.generate(&options).expect("a schedule");
-    let file = owned(&[]);
     let mut vehicle = file.vehicle.clone();
     change(&mut vehicle);
     let drive = Drive::new(&vehicle, concealed, &runs, seed).expect("it drives");
     let recording = drive.recording(&sensors(Preset::Laboratory), seed);
-    examined(&recording, &file).expect("an answer")
+    examined(&recording, file).expect("an answer")
 }
 
 static PLAIN: LazyLock<Examination> = LazyLock::new(|| set(&[], 3, |_| ()));
 
 fn compared(sim: &Examination, real: &Examination) -> Comparison {
-    let file = owned(&[]);
-    compare([sim, real], &file, Resampling::default(), &Watch::none()).expect("an answer")
+    compared_by(&owned(&[]), sim, real)
+}
+
+fn compared_by(file: &VehicleFile, sim: &Examination, real: &Examination) -> Comparison {
+    compare([sim, real], file, Resampling::default(), &Watch::none()).expect("an answer")
 }
 
 fn effect(id: &str) -> EffectId {
@@ -66,4 +78,19 @@ fn another_friction_ratio_stands_among_the_constants() {
     let read = ComparisonFile::from_document(&Document::new("compare.toml", &text));
     assert_eq!(read.expect("its own file").to_toml(), text);
     assert_eq!(file.differs[0].what, "constants");
+}
+
+/// Neither set lacks it, and neither has it as the file says.
+#[test]
+fn an_effect_of_the_vehicle_file_differs_by_its_size() {
+    let mut file = owned(&[]);
+    file.effects.insert("load-transfer:cog_height_m=0.15".parse().expect("an effect"));
+    let high = |height: &str, seed: u64| {
+        set_of(&file, &[&format!("load-transfer:cog_height_m={height}")], seed, |_| ())
+    };
+    let found = compared_by(&file, &high("0.1", 11), &high("0.25", 12));
+    let [one] = &found.differences[..] else { panic!("{}: {:?}", found.place(), found.effects) };
+    assert_eq!((one.which, &one.one_of), (Which::Both, &vec![effect("load-transfer")]));
+    let [sim, real] = one.group.numbers[0].each;
+    assert!(sim.holds(0.1) && real.holds(0.25), "{sim:?} {real:?}");
 }

@@ -12,8 +12,10 @@ mod constants;
 mod difference;
 pub mod document;
 mod joint;
+mod level;
 mod quantity;
 mod remainder;
+mod shared;
 pub mod words;
 
 pub use bayes::Alternatives;
@@ -29,9 +31,10 @@ use crate::progress::{Cancelled, Stage, Watch};
 use crate::resampling::Resampling;
 use crate::uncertainty::Uncertainty;
 use choice::Choice;
+use shared::Sets;
 use std::collections::{BTreeMap, BTreeSet};
 use trackdyn_model::effect::Symmetry;
-use trackdyn_model::{EffectId, VehicleFile};
+use trackdyn_model::{ActiveEffect, EffectId, VehicleFile};
 
 /// Stages of a comparison, after the diagnoses of both sets.
 pub const STAGES: usize = 3;
@@ -78,6 +81,8 @@ pub struct Comparison {
     pub diagnoses: [Diagnosis; 2],
     /// Effects that either set has.
     pub effects: Vec<EffectId>,
+    /// Effects of the vehicle file.
+    pub filed: Vec<EffectId>,
     /// What differs.
     pub differences: Vec<Difference>,
     /// What was compared and is not claimed to differ.
@@ -116,7 +121,8 @@ pub fn compare(
         watch.stage(Stage::Differences, || quantity::groups(both, &choice, &uncertainties))?;
     let moved = moved.as_ref();
     let judged = difference::judge(both, &choice, groups.clone(), moved, resampling);
-    let judged = closer::judge(both, &choice, judged);
+    let compared = Sets { sets: both, choice: &choice, groups: &groups, moved };
+    let judged = closer::judge(compared, judged);
     let (differences, alike): (Vec<_>, Vec<_>) =
         judged.into_iter().partition(|one| one.refused.is_none());
     watch.stage(Stage::Differences, || ())?;
@@ -138,7 +144,7 @@ pub fn compare(
     let after = of(remainder::apart(both, &choice), 0.0);
     let left = difference::joint(both, &choice, &groups, moved).left();
     let cells = remainder::cells(both, &icrs, &left);
-    let closer = Closer::of(both, &choice, &differences, file);
+    let closer = Closer::of(compared, &differences, file);
     let not_shown = choice.effects.iter().flat_map(|&effect| {
         let lacking = [0, 1].into_iter();
         let lacking = lacking.filter(|&k| !choice.fits[k].effects.contains(&effect));
@@ -150,6 +156,7 @@ pub fn compare(
     Ok(Comparison {
         smallest: smallest(&diagnoses),
         effects: choice.effects,
+        filed: file.effects.iter().map(ActiveEffect::effect).collect(),
         diagnoses,
         differences,
         alike,
@@ -200,15 +207,18 @@ impl Comparison {
 
     /// Effects that both sets have alike and the vehicle file lacks.
     pub fn common(&self) -> impl Iterator<Item = EffectId> {
-        self.alike.iter().filter_map(|one| match one.group.subject {
-            Subject::Effect(effect) => {
-                let has = |k: usize| {
-                    one.group.numbers.iter().any(|number| !number.each[k].holds(number.prior.mean))
-                };
-                (has(0) && has(1)).then_some(effect)
-            }
-            Subject::Constants | Subject::FrictionLevel | Subject::CentreOfGravity => None,
-        })
+        let filed = &self.filed;
+        let of_level = |one: &&Difference| one.group.subject == Subject::FrictionLevel;
+        let both = self.differences.iter().filter(of_level).chain(&self.alike);
+        let effects = both.flat_map(|one| {
+            // strengths that show a level are there
+            let has = |k: usize| {
+                one.group.subject == Subject::FrictionLevel
+                    || one.group.numbers.iter().any(|of| !of.each[k].holds(of.prior.mean))
+            };
+            one.group.effects.iter().copied().filter(move |_| has(0) && has(1))
+        });
+        effects.filter(|effect| !filed.contains(effect))
     }
 
     /// Symmetries in which the sets differ beside constant ICRs, ascending.

@@ -9,12 +9,13 @@ use crate::diagnosis::Examination;
 use crate::diagnosis::Kind;
 use crate::fit::{Fit, Point};
 use crate::hypothesis::{Unknown, beyond_none};
+use crate::mechanics::is_instrument;
 use crate::prior::prior;
 use crate::progress::{Cancelled, Watch};
 use crate::search::Found;
 use std::collections::BTreeSet;
-use trackdyn_model::EffectId;
 use trackdyn_model::effect::Role;
+use trackdyn_model::{ActiveEffect, EffectId};
 
 /// A claim of one diagnosis: the effect, and all that explain it as well.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,7 +51,7 @@ impl Choice {
     /// The choice with the highest evidence of both sets together.
     pub fn best(sets: [&Examination; 2], watch: &Watch) -> Result<Self, Cancelled> {
         let mut best: Option<(f64, Self)> = None;
-        for effects in candidates(sets.map(claimed)) {
+        for effects in candidates(sets.map(claimed), &filed(sets)) {
             let choice = Self::of(sets, effects, watch)?;
             let evidence = choice.evidence(sets);
             if best.as_ref().is_none_or(|(most, _)| evidence > *most) {
@@ -115,11 +116,28 @@ fn normal(found: &Found, unknown: Unknown) -> Option<[f64; 2]> {
     Some([found.fit.hypothesis.get(unknown), variance])
 }
 
+/// Effects of the vehicle file whose sizes may differ: physics, but what constant ICRs stand for,
+/// and inertia, whose level is free beside it.
+fn filed(sets: [&Examination; 2]) -> BTreeSet<EffectId> {
+    let filed = &sets[0].search.base.as_filed.hypothesis;
+    let is_compared = |active: &&ActiveEffect| {
+        let effect = active.effect();
+        !effect.card().is_inertia()
+            && !is_instrument(&filed.vehicle, active)
+            && sets.iter().all(|set| !set.constants.class().contains(&effect))
+            && sizes(effect).next().is_some()
+    };
+    filed.effects.iter().filter(is_compared).map(ActiveEffect::effect).collect()
+}
+
 /// Sets of effects that are tried: all claims of both, those of one alone, and all claims with one
-/// effect in place of two that may be the same.
-fn candidates([first, second]: [Vec<Claimed>; 2]) -> Vec<Vec<EffectId>> {
+/// effect in place of two that may be the same; each with the effects of the vehicle file.
+fn candidates(
+    [first, second]: [Vec<Claimed>; 2],
+    filed: &BTreeSet<EffectId>,
+) -> Vec<Vec<EffectId>> {
     let effects = |claims: &[Claimed]| -> BTreeSet<EffectId> {
-        claims.iter().map(|claim| claim.effect).collect()
+        claims.iter().map(|claim| claim.effect).chain(filed.iter().copied()).collect()
     };
     let [of_first, of_second] = [effects(&first), effects(&second)];
     let all: BTreeSet<EffectId> = of_first.union(&of_second).copied().collect();

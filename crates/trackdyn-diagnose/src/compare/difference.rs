@@ -1,7 +1,7 @@
 //! Verdicts on differences: the rules of a claim, asked of what one set has more than the other.
 
 use super::bayes::Alternatives;
-use super::choice::{Choice, Claimed, claimed};
+use super::choice::{Choice, Claimed, claimed, sizes};
 use super::constants::{Member, members};
 use super::joint::Joint;
 use super::quantity::{Estimate, Gradients, Group, Number, Quantity, Subject};
@@ -122,11 +122,25 @@ impl Fits<'_> {
     }
 
     /// Column of a number of a set, whitened.
-    fn of(&self, set: usize, number: Number) -> Option<Column> {
+    pub fn of(&self, set: usize, number: Number) -> Option<Column> {
         match number {
             Number::Unknown(unknown) => {
                 let place = self.fits[set].unknowns.iter().position(|one| *one == unknown)?;
                 Some(self.column(set, place))
+            }
+            Number::Level => {
+                // ∂p/∂λ = −Σ k ∂p/∂k
+                let fit = self.fits[set];
+                let strengths = fit.unknowns.iter().enumerate();
+                let strengths = strengths.filter(|(_, unknown)| number.moves(**unknown));
+                strengths.fold(None, |sum: Option<Column>, (place, &unknown)| {
+                    let strength = fit.hypothesis.get(unknown);
+                    let own = self.column(set, place).into_iter().map(|value| value * -strength);
+                    Some(match sum {
+                        Some(sum) => sum.into_iter().zip(own).map(|(sum, own)| sum + own).collect(),
+                        None => own.collect(),
+                    })
+                })
             }
             Number::Icr(_) => columns(self.fits[set], number),
         }
@@ -141,6 +155,7 @@ fn columns<'a>(fit: &'a Fit, number: Number) -> Option<Column> {
     };
     match number {
         Number::Unknown(unknown) => of(unknown).cloned(),
+        Number::Level => None,
         Number::Icr(n) => {
             let [left, right, y]: [Option<&'a Column>; 3] = OFFSETS.map(of);
             let sum = |sign: f64| -> Option<Column> {
@@ -158,12 +173,14 @@ fn columns<'a>(fit: &'a Fit, number: Number) -> Option<Column> {
 
 /// Unknowns that a group takes out of those of each set by itself.
 fn taken(groups: &[Group]) -> Vec<Unknown> {
-    let numbers = groups.iter().flat_map(|group| &group.numbers);
     let mut taken = Vec::new();
-    for quantity in numbers {
-        match quantity.number {
-            Number::Unknown(unknown) => taken.push(unknown),
-            Number::Icr(_) => taken.extend(OFFSETS),
+    for group in groups {
+        for quantity in &group.numbers {
+            match quantity.number {
+                Number::Unknown(unknown) => taken.push(unknown),
+                Number::Level => taken.extend(group.effects.iter().copied().flat_map(sizes)),
+                Number::Icr(_) => taken.extend(OFFSETS),
+            }
         }
     }
     taken
@@ -171,27 +188,38 @@ fn taken(groups: &[Group]) -> Vec<Unknown> {
 
 /// Sizes of effects among what is compared.
 fn effects(groups: &[Group]) -> impl Iterator<Item = &Quantity> {
-    let is_effect = |group: &&Group| matches!(group.subject, Subject::Effect(_));
-    groups.iter().filter(is_effect).flat_map(|group| &group.numbers)
+    groups.iter().filter(|group| !group.effects.is_empty()).flat_map(|group| &group.numbers)
 }
 
-/// Both sets with all groups in common; differences are columns to be added.
-pub(super) fn joint<'a>(
+/// Both sets with all groups in common, and where their numbers stand among the columns.
+pub(super) struct InCommon<'a> {
+    /// The sets; differences are columns to be added.
+    pub joint: Joint<'a>,
+    /// Columns of what is free in a set by itself: the set, the place among the unknowns of its
+    /// fit, and the index.
+    pub own: Vec<(usize, usize, usize)>,
+    /// Columns of the compared numbers, in the order of the groups; none where a fit has none.
+    pub shared: Vec<Option<usize>>,
+}
+
+/// Both sets with all groups in common.
+pub(super) fn in_common<'a>(
     sets: [&'a Examination; 2],
     choice: &'a Choice,
     groups: &[Group],
     moved: Option<&[Gradients; 2]>,
-) -> Joint<'a> {
+) -> InCommon<'a> {
     let fits = [&choice.fits[0].fit, &choice.fits[1].fit];
     let in_icrs = Fits { fits, moved };
     let evidence = sets.map(|set| &set.search.evidence);
     let mut joint = Joint::new(evidence, fits.map(|fit| &fit.residual[..]));
+    let mut own = Vec::new();
     let taken = taken(groups);
     for (k, fit) in fits.into_iter().enumerate() {
         let known = priors(&fit.hypothesis, &fit.unknowns, evidence[k]);
         for (place, (unknown, prior)) in fit.unknowns.iter().zip(known).enumerate() {
             if !taken.contains(unknown) {
-                joint.free_in(k, &in_icrs.column(k, place), prior);
+                own.push((k, place, joint.free_in(k, &in_icrs.column(k, place), prior)));
             }
         }
         // another size must not pass for another form
@@ -203,16 +231,26 @@ pub(super) fn joint<'a>(
             joint.free_in(k, &form, *prior);
         }
     }
-    for quantity in groups.iter().flat_map(|group| &group.numbers) {
-        let of = [0, 1].map(|k| in_icrs.of(k, quantity.number));
-        let [Some(first), Some(second)] = of else { continue };
+    let mut share = |quantity: &Quantity| {
+        let [first, second] = [in_icrs.of(0, quantity.number)?, in_icrs.of(1, quantity.number)?];
         let common = quantity.common();
         let factors = quantity.each.map(|one| one.value - common);
         joint.add_back(0, &first, factors[0]);
         joint.add_back(1, &second, factors[1]);
-        joint.free_in_both([&first, &second], prior_of_difference(quantity));
-    }
-    joint
+        Some(joint.free_in_both([&first, &second], prior_of_difference(quantity)))
+    };
+    let shared = groups.iter().flat_map(|group| &group.numbers).map(&mut share).collect();
+    InCommon { joint, own, shared }
+}
+
+/// Both sets with all groups in common; differences are columns to be added.
+pub(super) fn joint<'a>(
+    sets: [&'a Examination; 2],
+    choice: &'a Choice,
+    groups: &[Group],
+    moved: Option<&[Gradients; 2]>,
+) -> Joint<'a> {
+    in_common(sets, choice, groups, moved).joint
 }
 
 /// Columns of what the second set has more, a group each.
@@ -225,7 +263,7 @@ fn more(joint: &Joint, fits: Fits, groups: &[Group]) -> Vec<Vec<(Column, Prior)>
 }
 
 /// Two independent numbers with this prior differ by √2 of its deviation.
-fn prior_of_difference(quantity: &Quantity) -> Prior {
+pub(super) fn prior_of_difference(quantity: &Quantity) -> Prior {
     Prior::normal(0.0, 2.0_f64.sqrt() * quantity.prior.deviation)
 }
 

@@ -7,7 +7,7 @@
 use crate::equations::{Column, Equations, Stack};
 use crate::normal::{Columns, Normal, Prior};
 use crate::weighted::Weighted;
-use nalgebra::Vector3;
+use nalgebra::{DVector, Vector3};
 
 /// Two sets with their residuals and what is free in each by itself.
 pub(super) struct Joint<'a> {
@@ -27,17 +27,25 @@ impl<'a> Joint<'a> {
         Self { evidence, residuals, shifted, columns: Vec::new(), priors: Vec::new() }
     }
 
-    /// Adds a column that is free in one set by itself.
-    pub fn free_in(&mut self, set: usize, column: &[Vector3<f64>], prior: Prior) {
-        let column = self.alone(set, column);
-        self.columns.push(column);
-        self.priors.push(prior);
+    /// Adds a column that is free in one set by itself; its index.
+    pub fn free_in(&mut self, set: usize, column: &[Vector3<f64>], prior: Prior) -> usize {
+        self.push(self.alone(set, column), prior)
     }
 
-    /// Adds a column that both sets share.
-    pub fn free_in_both(&mut self, columns: [&[Vector3<f64>]; 2], prior: Prior) {
-        self.columns.push(columns.concat());
+    /// Adds a column that both sets share; its index.
+    pub fn free_in_both(&mut self, columns: [&[Vector3<f64>]; 2], prior: Prior) -> usize {
+        self.push(columns.concat(), prior)
+    }
+
+    fn push(&mut self, column: Column, prior: Prior) -> usize {
+        self.columns.push(column);
         self.priors.push(prior);
+        self.columns.len() - 1
+    }
+
+    /// Factors of all columns, by their indices.
+    pub fn factors(&self) -> DVector<f64> {
+        self.equations(Vec::new()).fit_with(&[]).estimate
     }
 
     /// Adds a part of the prediction of a set back to its residual.

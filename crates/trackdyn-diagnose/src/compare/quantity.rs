@@ -1,6 +1,7 @@
 //! Numbers that both sets have, with an estimate in each.
 
 use super::choice::{Choice, sizes};
+use super::level;
 use crate::base::spin_with;
 use crate::diagnosis::Examination;
 use crate::hypothesis::{Hypothesis, Unknown, neutral, typical_size};
@@ -9,7 +10,7 @@ use crate::normal::Prior;
 use crate::prior::prior;
 use crate::search::Found;
 use crate::uncertainty::{Interval, Spread, Uncertainty};
-use trackdyn_model::effect::Parameter;
+use trackdyn_model::effect::{Card, Parameter, Role};
 use trackdyn_model::{ActiveEffect, EffectId, Effects};
 
 /// Half width of a 95 % interval, in standard deviations.
@@ -22,7 +23,7 @@ pub enum Subject {
     Effect(EffectId),
     /// The constant ICRs: friction ratio, centre of gravity and all that acts alike.
     Constants,
-    /// The level of friction that inertia shows.
+    /// The level of friction that inertia shows: mass over friction is one number.
     FrictionLevel,
     /// The centre of gravity that inertia shows.
     CentreOfGravity,
@@ -33,6 +34,9 @@ pub enum Subject {
 pub enum Number {
     /// A free number of both hypotheses.
     Unknown(Unknown),
+    /// ln of the friction on which the robot slides, where effects of inertia are free: their
+    /// strengths are the inverse of its level.
+    Level,
     /// Of the constant ICRs: their middle (x_l + x_r)/2, half their distance (x_r − x_l)/2, or y.
     Icr(usize),
 }
@@ -42,7 +46,20 @@ impl Number {
     pub fn parameter(self) -> Option<&'static Parameter> {
         match self {
             Self::Unknown(unknown) => unknown.parameter(),
-            Self::Icr(_) => None,
+            Self::Level | Self::Icr(_) => None,
+        }
+    }
+
+    /// Whether it moves this unknown of a fit; constant ICRs are moved by their offsets.
+    pub(super) fn moves(self, unknown: Unknown) -> bool {
+        let is_size = |of: &Parameter| matches!(of.role, Role::Size { .. });
+        match self {
+            Self::Unknown(own) => own == unknown,
+            Self::Level => {
+                let is_inertia = unknown.card().is_some_and(Card::is_inertia);
+                is_inertia && unknown.parameter().is_some_and(is_size)
+            }
+            Self::Icr(_) => false,
         }
     }
 
@@ -52,7 +69,7 @@ impl Number {
             Self::Icr(0) => "icr_middle",
             Self::Icr(1) => "icr_half_distance",
             Self::Icr(_) | Self::Unknown(Unknown::Offset(_)) => "icr_y",
-            Self::Unknown(Unknown::FrictionLevel) => "ln_friction",
+            Self::Level | Self::Unknown(Unknown::FrictionLevel) => "ln_friction",
             Self::Unknown(Unknown::Cog(0)) => "cog_x",
             Self::Unknown(Unknown::Cog(_)) => "cog_y",
             Self::Unknown(Unknown::Effect(effect, place)) => effect.card().parameters[place].key,
@@ -62,7 +79,7 @@ impl Number {
     /// Its unit.
     pub fn unit(self) -> &'static str {
         match self {
-            Self::Unknown(Unknown::FrictionLevel) => "1",
+            Self::Level | Self::Unknown(Unknown::FrictionLevel) => "1",
             Self::Unknown(Unknown::Effect(effect, place)) => effect.card().parameters[place].unit,
             Self::Icr(_) | Self::Unknown(_) => "m",
         }
@@ -81,7 +98,7 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    fn around(value: f64, half: f64) -> Self {
+    pub(super) fn around(value: f64, half: f64) -> Self {
         Self { value, low: value - half, high: value + half }
     }
 
@@ -134,7 +151,7 @@ pub struct Quantity {
 }
 
 impl Quantity {
-    fn new(number: Number, each: [Estimate; 2], prior: Prior, typical: f64) -> Self {
+    pub(super) fn new(number: Number, each: [Estimate; 2], prior: Prior, typical: f64) -> Self {
         Self { number, each, difference: each[1].less(&each[0]), prior, typical }
     }
 
@@ -151,6 +168,8 @@ impl Quantity {
 pub struct Group {
     /// What they are.
     pub subject: Subject,
+    /// The effects whose sizes they are, or follow from, ascending.
+    pub effects: Vec<EffectId>,
     /// The numbers.
     pub numbers: Vec<Quantity>,
 }
@@ -172,6 +191,11 @@ pub(super) fn groups(
     let mut groups = of_effects(&effects, sets, choice, uncertainties);
     let evidence = &sets[0].search.evidence;
     let hypothesis = &sets[0].search.base.as_filed.hypothesis;
+    if let Some(level) = level::group(&groups, &prior(hypothesis, Unknown::FrictionLevel, evidence))
+    {
+        groups.retain(|group| !group.effects.iter().any(|one| level.effects.contains(one)));
+        groups.push(level);
+    }
     let (constants, gradients) = constants(sets, choice, spreads).unzip();
     groups.extend(constants);
     for (subject, unknowns) in [
@@ -184,7 +208,7 @@ pub(super) fn groups(
             let typical = prior.deviation;
             Some(Quantity::new(Number::Unknown(unknown), [of(0)?, of(1)?], prior, typical))
         });
-        groups.push(Group { subject, numbers: numbers.collect() });
+        groups.push(Group { subject, effects: Vec::new(), numbers: numbers.collect() });
     }
     groups.retain(|group| !group.numbers.is_empty());
     (groups, gradients)
@@ -210,7 +234,8 @@ fn of_effects(
             let typical = typical_size(parameter);
             Some(Quantity::new(Number::Unknown(unknown), [of(0)?, of(1)?], known, typical))
         });
-        Group { subject: Subject::Effect(effect), numbers: numbers.collect() }
+        let numbers = numbers.collect();
+        Group { subject: Subject::Effect(effect), effects: vec![effect], numbers }
     };
     effects.iter().map(group).collect()
 }
@@ -293,7 +318,8 @@ fn constants(
         let known = Prior::normal(mean[n], deviation);
         Quantity::new(Number::Icr(n), [first[n], second[n]], known, 0.1 * gauge)
     });
-    let group = Group { subject: Subject::Constants, numbers: numbers.collect() };
+    let numbers = numbers.collect();
+    let group = Group { subject: Subject::Constants, effects: Vec::new(), numbers };
     Some((group, [of_first, of_second]))
 }
 

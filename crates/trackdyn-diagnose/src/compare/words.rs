@@ -79,14 +79,14 @@ pub fn name(number: Number) -> &'static str {
         Number::Icr(0) => "middle between the ICRs",
         Number::Icr(1) => "half the distance of the ICRs",
         Number::Icr(_) => "y of the ICRs",
-        Number::Unknown(Unknown::FrictionLevel) => "ln of the friction",
+        Number::Level | Number::Unknown(Unknown::FrictionLevel) => "ln of the friction",
         Number::Unknown(_) => number.name(),
     }
 }
 
 /// A number in both sets.
 pub fn number(quantity: &Quantity) -> String {
-    if quantity.number == Number::Unknown(Unknown::FrictionLevel) {
+    if matches!(quantity.number, Number::Level | Number::Unknown(Unknown::FrictionLevel)) {
         let [sim, real] = quantity.each.each_ref().map(|one| with_interval(&factor(one), "1"));
         return format!("{sim} times the vehicle file's in SIM, {real} times in REAL");
     }

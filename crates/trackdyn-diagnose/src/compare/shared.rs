@@ -1,0 +1,130 @@
+//! The model of both sets in which nothing differs but what is claimed.
+//!
+//! What is alike in a simulator and a robot is known by the recordings of both. Were each set's own
+//! estimates taken, an error of one that hangs together with a claimed number would pass for a
+//! prediction that the claim makes worse.
+
+use super::choice::Choice;
+use super::difference::{Fits, InCommon, in_common, prior_of_difference};
+use super::quantity::{Gradients, Group, Number, Quantity, Subject};
+use crate::diagnosis::Examination;
+use crate::hypothesis::{Hypothesis, Unknown};
+
+/// Two sets with the numbers that are compared.
+#[derive(Clone, Copy)]
+pub(super) struct Sets<'a> {
+    /// The sets.
+    pub sets: [&'a Examination; 2],
+    /// The effects that either has, with the fit of each set.
+    pub choice: &'a Choice,
+    /// What is compared.
+    pub groups: &'a [Group],
+    /// By how much the unknowns of each fit move its constant ICRs.
+    pub moved: Option<&'a [Gradients; 2]>,
+}
+
+/// The second set's model, where its numbers but these are those of both sets.
+pub(super) struct Shared {
+    /// With these numbers as in the first set.
+    pub as_first: Hypothesis,
+    /// With them as in the second set.
+    pub as_second: Hypothesis,
+}
+
+impl Sets<'_> {
+    /// The second set's model, where nothing differs but these.
+    ///
+    /// # Law
+    /// The normal equations of both sets, with a second factor for each claimed number in the
+    /// second set; the model is moved by their solution.
+    pub fn model(&self, claimed: &[Subject]) -> Shared {
+        let Self { sets, choice, groups, moved } = *self;
+        let fits = Fits { fits: [&choice.fits[0].fit, &choice.fits[1].fit], moved };
+        let InCommon { mut joint, own, shared } = in_common(sets, choice, groups, moved);
+        let is_claimed = |group: &Group| claimed.contains(&group.subject);
+        let numbers: Vec<(&Quantity, bool)> = groups
+            .iter()
+            .flat_map(|group| group.numbers.iter().map(|one| (one, is_claimed(group))))
+            .collect();
+        let more: Vec<Option<usize>> = numbers
+            .iter()
+            .map(|(quantity, is_claimed)| {
+                let column = fits.of(1, quantity.number).filter(|_| *is_claimed)?;
+                Some(joint.free_in(1, &column, prior_of_difference(quantity)))
+            })
+            .collect();
+        let factors = joint.factors();
+        let factor = |column: Option<usize>| column.map_or(0.0, |column| factors[column]);
+        let fit = fits.fits[1];
+        let mut second = Moved::new(&fit.hypothesis);
+        let gradient = |place: usize| moved.map_or([0.0; 3], |moved| moved[1][place]);
+        for (_, place, column) in own.into_iter().filter(|(set, ..)| *set == 1) {
+            second.by(fit.unknowns[place], factors[column], gradient(place));
+        }
+        let places = |number: Number| {
+            let places = 0..fit.unknowns.len();
+            places.filter(move |&place| number.moves(fit.unknowns[place]))
+        };
+        let shift = |moved: &mut Moved, number: Number, by: f64| match number {
+            Number::Icr(n) => moved.icrs[n] += by,
+            Number::Unknown(unknown) => {
+                for place in places(number) {
+                    moved.by(unknown, by, gradient(place));
+                }
+            }
+            Number::Level => {
+                for place in places(number) {
+                    // k = e^(−λ)
+                    let strength = moved.hypothesis.get(fit.unknowns[place]);
+                    let change = strength * ((-by).exp() - 1.0);
+                    moved.by(fit.unknowns[place], change, gradient(place));
+                }
+            }
+        };
+        for ((quantity, _), column) in numbers.iter().zip(&shared).filter(|(_, one)| one.is_some())
+        {
+            let now = quantity.common() + factor(*column);
+            shift(&mut second, quantity.number, now - quantity.each[1].value);
+        }
+        let first = second.clone();
+        for ((quantity, _), column) in numbers.iter().zip(more) {
+            shift(&mut second, quantity.number, factor(column));
+        }
+        Shared { as_first: first.finished(), as_second: second.finished() }
+    }
+}
+
+/// A hypothesis on its way, with the change of its constant ICRs.
+#[derive(Clone)]
+struct Moved {
+    hypothesis: Hypothesis,
+    /// Change of the middle, the half distance and y, m.
+    icrs: [f64; 3],
+}
+
+impl Moved {
+    fn new(hypothesis: &Hypothesis) -> Self {
+        Self { hypothesis: hypothesis.clone(), icrs: [0.0; 3] }
+    }
+
+    /// Moves an unknown at constant ICRs, which it would move by `gradient`.
+    fn by(&mut self, unknown: Unknown, change: f64, gradient: [f64; 3]) {
+        let before = self.hypothesis.get(unknown);
+        self.hypothesis = self.hypothesis.with(unknown, before + change);
+        if matches!(unknown, Unknown::Offset(_)) {
+            return;
+        }
+        let change = self.hypothesis.get(unknown) - before;
+        for (icr, by) in self.icrs.iter_mut().zip(gradient) {
+            *icr -= by * change;
+        }
+    }
+
+    /// The hypothesis with its constant ICRs where they belong.
+    fn finished(self) -> Hypothesis {
+        let [middle, half, y] = self.icrs;
+        let [left, right, along] = self.hypothesis.offset;
+        let offset = [left + middle - half, right + middle + half, along + y];
+        Hypothesis { offset, ..self.hypothesis }
+    }
+}

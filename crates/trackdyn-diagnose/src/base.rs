@@ -190,13 +190,25 @@ impl Calibration {
         }
     }
 
-    /// The hypothesis with a vehicle that absorbs the ICR offset, by Newton's method; none where no
-    /// such vehicle exists.
+    /// The hypothesis with a vehicle that absorbs the ICR offset; none where no such vehicle exists.
     pub fn calibrated(self, hypothesis: &Hypothesis) -> Option<Hypothesis> {
-        const ROUNDS: usize = 20;
         let wanted = spin(&hypothesis.vehicle)? + Vector3::from(hypothesis.offset);
+        let Absorbed { vehicle, by, off } = self.absorbed(&hypothesis.vehicle, wanted, &spin)?;
+        let cog_moved = [0, 1].map(|axis| hypothesis.cog_moved[axis] + by[1 + axis]);
+        Some(Hypothesis { vehicle, offset: off.into(), cog_moved, ..hypothesis.clone() })
+    }
+
+    /// A vehicle whose constant ICRs are the wanted ones, by Newton's method from a vehicle on;
+    /// `spin` gives those of a vehicle. None where no such vehicle exists.
+    fn absorbed(
+        self,
+        from: &Vehicle,
+        wanted: Vector3<f64>,
+        spin: &dyn Fn(&Vehicle) -> Option<Vector3<f64>>,
+    ) -> Option<Absorbed> {
+        const ROUNDS: usize = 20;
         let changed = |by: &Vector3<f64>| -> Vehicle {
-            let mut vehicle = hypothesis.vehicle.clone();
+            let mut vehicle = from.clone();
             // Neither coefficient is known better than the other.
             vehicle.friction.across *= (by[0] / 2.0).exp();
             vehicle.friction.along *= (-by[0] / 2.0).exp();
@@ -210,9 +222,7 @@ impl Calibration {
             vehicle.check().ok()?;
             let off = wanted - spin(&vehicle)?;
             if self.due(off.into()) < 1e-9 {
-                let cog_moved = [0, 1].map(|axis| hypothesis.cog_moved[axis] + by[1 + axis]);
-                let offset = off.into();
-                return Some(Hypothesis { vehicle, offset, cog_moved, ..hypothesis.clone() });
+                return Some(Absorbed { vehicle, by, off });
             }
             let mut slope = Matrix3::zeros();
             for k in 0..3 {
@@ -230,7 +240,7 @@ impl Calibration {
                 Self::None => return None,
             };
             // Step limit: half a unit of ln friction ratio, or a tenth of the gauge.
-            let gauge = hypothesis.vehicle.gauge;
+            let gauge = from.gauge;
             let size = (step[0].abs() / 0.5)
                 .max(step[1].abs() / (0.1 * gauge))
                 .max(step[2].abs() / (0.1 * gauge));
@@ -240,28 +250,25 @@ impl Calibration {
     }
 }
 
-/// Sets friction and centre of gravity of a vehicle file to those of a vehicle with the constant
-/// ICRs of a hypothesis, at the friction level `level`; those of the hypothesis where no vehicle
-/// has these ICRs.
-///
-/// The vehicle also absorbs the ICR shifts of `added` effects that are not in the file as fitted.
-pub fn correct_constants(
-    file: &mut VehicleFile,
-    hypothesis: &Hypothesis,
-    added: &[EffectId],
-    level: f64,
-) {
-    let filed = |of: &ActiveEffect| file.effects.get(of.card().id);
-    let added = added.iter().filter_map(|&effect| hypothesis.effect(effect));
-    let missed: Vec<&ActiveEffect> = added.filter(|one| filed(one) != Some(one)).collect();
-    let with = spin_with(&hypothesis.vehicle, missed.iter().copied().cloned().collect());
-    let as_filed = missed.iter().filter_map(|one| filed(one)).cloned().collect();
-    let without = spin_with(&hypothesis.vehicle, as_filed);
-    let moved = with.zip(without).map_or(Vector3::zeros(), |(with, without)| with - without);
-    let offset = Vector3::from(hypothesis.offset) + moved;
-    let taken = Hypothesis { offset: offset.into(), ..hypothesis.clone() };
-    let calibrated = Calibration::Vehicle.calibrated(&taken).unwrap_or(taken);
-    let vehicle = with_friction(&calibrated.vehicle, level - hypothesis.friction_level);
+/// A vehicle that absorbs an offset of the constant ICRs.
+struct Absorbed {
+    vehicle: Vehicle,
+    /// What was changed: ln of the friction ratio, and the centre of gravity, m.
+    by: Vector3<f64>,
+    /// What it does not absorb, m.
+    off: Vector3<f64>,
+}
+
+/// Sets friction and centre of gravity of a vehicle file to those of a vehicle that has, with the
+/// effects of the file, the constant ICRs of a hypothesis, at the friction level `level`; to those
+/// of the hypothesis where no vehicle has these ICRs.
+pub fn correct_constants(file: &mut VehicleFile, hypothesis: &Hypothesis, level: f64) {
+    let from = with_friction(&hypothesis.vehicle, level - hypothesis.friction_level);
+    let spin = |vehicle: &Vehicle| spin_with(vehicle, file.effects.clone());
+    let own = spin_with(&hypothesis.vehicle, hypothesis.effects.clone());
+    let wanted = own.map(|own| own + Vector3::from(hypothesis.offset));
+    let absorbed = wanted.and_then(|wanted| Calibration::Vehicle.absorbed(&from, wanted, &spin));
+    let vehicle = absorbed.map_or(from, |absorbed| absorbed.vehicle);
     file.vehicle.friction = vehicle.friction;
     file.vehicle.cog = vehicle.cog;
 }
@@ -309,16 +316,26 @@ mod tests {
         let wanted = with + Vector3::from(hypothesis.offset);
         let product = |vehicle: &Vehicle| vehicle.friction.across * vehicle.friction.along;
         let before = product(&file.vehicle);
-        correct_constants(&mut file, &hypothesis, &[gradient], LEVEL);
+        correct_constants(&mut file, &hypothesis, LEVEL);
         let off = spin(&file.vehicle).expect("a spin") - wanted;
         assert!(off.norm() < 1e-6, "{off}");
         assert!((product(&file.vehicle) / before - (2.0 * LEVEL).exp()).abs() < 1e-9);
         // an effect in the file as fitted is not absorbed
         let mut file = VehicleFile::auriga_alpha();
         file.effects.insert(hypothesis.effect(gradient).expect("there").clone());
-        let bare = spin(&file.vehicle).expect("a spin") + Vector3::from(hypothesis.offset);
-        correct_constants(&mut file, &hypothesis, &[gradient], 0.0);
-        let off = spin(&file.vehicle).expect("a spin") - bare;
+        correct_constants(&mut file, &hypothesis, 0.0);
+        let off = spin_with(&file.vehicle, file.effects.clone()).expect("a spin") - wanted;
+        assert!(off.norm() < 1e-6, "{off}");
+        // nor one that changes what the friction ratio does to the ICRs
+        let concentration = EffectId::of("pressure-concentration").expect("an effect");
+        let concentration = active(concentration, &[1.6]);
+        let hypothesis = hypothesis.without(gradient).with_effect(concentration);
+        let mut file = VehicleFile::auriga_alpha();
+        file.effects = hypothesis.effects.clone();
+        correct_constants(&mut file, &hypothesis, LEVEL);
+        let own = spin_with(&hypothesis.vehicle, hypothesis.effects.clone()).expect("a spin");
+        let there = spin_with(&file.vehicle, file.effects).expect("a spin");
+        let off = there - own - Vector3::from(hypothesis.offset);
         assert!(off.norm() < 1e-6, "{off}");
     }
 }

@@ -54,7 +54,7 @@ fn with_claims(
     }
     // Constants that are right may have been those of other numbers than the claimed ones.
     if !constants.is_empty() || is_elsewhere(&corrected, hypothesis, tolerated) {
-        correct_constants(&mut corrected, hypothesis, &found.effects, level);
+        correct_constants(&mut corrected, hypothesis, level);
     }
     corrected
 }

@@ -12,6 +12,7 @@
 //! given beside, for independent Gaussian errors of the first and the last pose of a piece.
 
 use crate::evidence::{Origin, Sample};
+use crate::mechanics::Mechanics;
 use crate::replay;
 use crate::weighted::Weighted;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -58,15 +59,25 @@ pub struct Compared {
 }
 
 impl Drift {
-    /// Drift over all runs of evidence; none of a table of steady points.
+    /// Drift over all runs of evidence; none of a table of steady points, or where a motion in time
+    /// fails. `near` is the mechanics of a vehicle similar to the corrected one on the same
+    /// evidence, by which that is moved.
     ///
     /// A piece crosses no gap, and no sample that is lost or has no motion. Pieces are as long as
     /// ten of them allow.
-    pub fn of(evidence: &Weighted, filed: &VehicleFile, corrected: &VehicleFile) -> Self {
+    pub fn of(
+        evidence: &Weighted,
+        filed: &VehicleFile,
+        corrected: &VehicleFile,
+        near: Option<&Mechanics>,
+    ) -> Self {
         if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
             return Self::default();
         }
-        let motions = [filed, corrected].map(|file| replay::motions(evidence, file));
+        let motions = [(filed, None), (corrected, near)]
+            .map(|(file, near)| replay::motions_near(evidence, file, near));
+        let [Some(before), Some(after)] = motions else { return Self::default() };
+        let motions = [before, after];
         let samples = evidence.samples();
         let travelled = |sample: &Sample, _| {
             f64::midpoint(sample.speeds.left, sample.speeds.right).abs() * sample.duration

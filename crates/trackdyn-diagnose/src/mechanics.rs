@@ -12,8 +12,8 @@
 //! Both departures are computed without shear-stress laws, which need a quadrature per solve. Their
 //! influence on the ground departure is of second order and neglected; that on the inertial
 //! departure is found from it in a few Newton steps. Where the transient simulation fails, the
-//! departure of a similar hypothesis is used: ticks of a coarse encoder may tip over a high robot
-//! that never was close to it.
+//! departure of a similar hypothesis is moved by its slopes: ticks of a coarse encoder may tip over
+//! a high robot that never was close to it.
 
 mod belts;
 mod by_shear;
@@ -81,7 +81,7 @@ enum InTime {
         /// Change of it by shear-stress laws; none without such laws.
         sheared: Option<ByShear>,
     },
-    /// Taken from another robot, without shear-stress laws: the transient simulation of this one
+    /// Moved from another robot, without shear-stress laws: the transient simulation of this one
     /// fails.
     OfAnother(InertiaNear),
     /// The hypothesis is impossible: forces do not balance over a large share of the speeds, or the
@@ -315,18 +315,22 @@ impl Mechanics {
         }
         let (largest, starts) = (largest(evidence), hypothesis.starts_in(evidence));
         let case = Case { vehicle, model: simple, surface, largest, drive, starts, evidence };
-        let known = before.and_then(|before| before.in_time.inertia());
-        match (inertia(inert, &case), known) {
-            (Ok(inertia), _) => {
+        match inertia(inert.clone(), &case) {
+            Ok(inertia) => {
                 let known = before.and_then(|before| before.in_time.sheared());
                 let beside =
                     || ByShear::beside(known, shear, surface, (&inertia, &case), free, within);
                 let sheared = (!shear.is_empty()).then(beside);
                 InTime::Found { inertia, sheared }
             }
-            // Where the transient simulation fails, the departure of a similar hypothesis is taken.
-            (Err(_), Some(known)) => InTime::OfAnother(known.unmoved()),
-            (Err(reason), None) => InTime::Impossible(reason),
+            // Where the transient simulation fails, the departure of a similar hypothesis is moved
+            // to this one: as it is, it would fit whatever the sizes.
+            Err(reason) => {
+                let known = before.and_then(|before| before.in_time.inertia());
+                let the_way = Within::the_way(&evidence.settings().mechanics);
+                let moved = known.and_then(|known| known.moved(&inert, &case, the_way));
+                moved.map_or(InTime::Impossible(reason), InTime::OfAnother)
+            }
         }
     }
 

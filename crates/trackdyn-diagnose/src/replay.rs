@@ -12,12 +12,35 @@ use trackdyn_model::{Sensor, VehicleFile};
 /// nothing of the clock, poses come late by what suits its turning best: the recording's own offset
 /// holds the time by which inertia answers, too.
 pub fn motions(evidence: &Evidence, file: &VehicleFile) -> Vec<Pose> {
+    let (mechanics, instruments) = driven(evidence, file, None);
+    by(&mechanics, &instruments, evidence)
+}
+
+/// As [`motions`], beside the mechanics of a similar vehicle on the same evidence, by which a motion
+/// in time is moved that cannot be simulated; none where it fails all the same.
+pub fn motions_near(
+    evidence: &Evidence,
+    file: &VehicleFile,
+    near: Option<&Mechanics>,
+) -> Option<Vec<Pose>> {
+    let (mechanics, instruments) = driven(evidence, file, near);
+    mechanics.failure().is_none().then(|| by(&mechanics, &instruments, evidence))
+}
+
+/// A vehicle file on this evidence.
+fn driven(
+    evidence: &Evidence,
+    file: &VehicleFile,
+    near: Option<&Mechanics>,
+) -> (Mechanics, Instruments) {
     let hypothesis = Hypothesis::filed(file, &evidence.settings().prior);
-    let instruments = Instruments::of(&hypothesis);
-    let mechanics = Mechanics::new(&hypothesis, evidence);
+    (Mechanics::beside(near, &hypothesis, evidence), Instruments::of(&hypothesis))
+}
+
+fn by(mechanics: &Mechanics, instruments: &Instruments, evidence: &Evidence) -> Vec<Pose> {
     let moved = |delay: f64| {
         let sensor = Sensor { delay, ..instruments.sensor };
-        mechanics.predict(&Instruments { sensor, ..instruments }, evidence)
+        mechanics.predict(&Instruments { sensor, ..*instruments }, evidence)
     };
     let motions = if instruments.sensor.delay == 0.0 {
         let all = delays(evidence).map(moved);

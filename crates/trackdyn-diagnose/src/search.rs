@@ -213,7 +213,12 @@ impl Search {
             found.ln_evidence - worth * added
         };
         let nothing = self.nothing();
-        let mut whole = self.newton(&nothing, watch)?;
+        let newton = self.newton(&nothing, watch)?;
+        let with_load = match newton.as_ref().filter(|newton| value(newton) > value(&nothing)) {
+            Some(newton) => self.with_load(newton, watch)?,
+            None => None,
+        };
+        let mut whole: Vec<Found> = newton.into_iter().chain(with_load).collect();
         let earlier = self.again(&self.known.best).filter(|found| value(found) > value(&nothing));
         let mut best = earlier.unwrap_or(nothing);
         for _ in 0..settings.max_rounds {
@@ -263,7 +268,7 @@ impl Search {
                 .into_iter()
                 .chain(singles)
                 .chain(refitted)
-                .chain(whole.take())
+                .chain(whole.drain(..))
                 .max_by(|a, b| value(a).total_cmp(&value(b)).then(b.effects.cmp(&a.effects)));
             match next {
                 Some(next) if value(&next) > value(&best) + settings.min_round_gain => {

@@ -9,7 +9,11 @@ use crate::hypothesis::Hypothesis;
 use crate::locate::excess;
 use crate::mechanics::{Instruments, Mechanics};
 use crate::weighted::Weighted;
-use trackdyn_model::{EffectId, VehicleFile};
+use trackdyn_core::real;
+use trackdyn_model::VehicleFile;
+
+/// Standard deviations of χ² by which numbers that are free explain more by chance.
+const CHANCE: f64 = 3.0;
 
 /// Predictions of the runs of the second set: held-out ones where there are any.
 #[derive(Clone, Debug)]
@@ -21,6 +25,10 @@ pub struct Closer {
     pub errors: [f64; 3],
     /// Whether the runs were held out.
     pub are_held_out: bool,
+    /// Decrease of twice the negative log-likelihood of the second set's runs of the fit from the
+    /// first set's model, with what differs as in the second, to the second set's own, beyond what
+    /// as many free numbers explain by chance.
+    pub left: f64,
     /// The first set's model, with what differs as in the second.
     pub vehicle: VehicleFile,
 }
@@ -34,14 +42,18 @@ impl Closer {
         let Shared { as_first, as_second } = both.model(&subjects);
         let judging = sets[1].diagnosis.evidence.unseen.as_ref().map(|unseen| &unseen.evidence);
         let evidence = judging.unwrap_or(&sets[1].search.evidence);
-        let added = &choice.fits[1].effects;
-        let [first, second] = [&as_first, &as_second].map(|model| vehicle(file, model, added));
+        let [first, second] = [&as_first, &as_second].map(|model| vehicle(file, model));
         // a motion in time that fails is taken from that of the fit, of the same runs
         let fitted = judging.is_none().then_some(&choice.fits[1].fit.mechanics);
         let errors = [&as_first, &as_second, own];
         let errors = errors.map(|one| Predicted::by(one, evidence, fitted).error);
+        let seen = &sets[1].search.evidence;
+        let fitted = Some(&choice.fits[1].fit.mechanics);
+        let [shared, alone] = [&as_second, own].map(|one| Predicted::by(one, seen, fitted).loss);
+        let free = real(choice.fits[1].fit.free.len());
         Self {
-            drift: Drift::of(evidence, &first, &second),
+            left: shared - alone - free - CHANCE * (2.0 * free).sqrt(),
+            drift: Drift::of(evidence, &first, &second, fitted),
             errors,
             are_held_out: judging.is_some(),
             vehicle: second,
@@ -93,12 +105,12 @@ pub(super) fn judge(both: Sets, mut judged: Vec<Difference>) -> Vec<Difference> 
 
 /// A vehicle file with all of a hypothesis: effects, and friction and centre of gravity that have
 /// its constant ICRs.
-fn vehicle(file: &VehicleFile, hypothesis: &Hypothesis, added: &[EffectId]) -> VehicleFile {
+fn vehicle(file: &VehicleFile, hypothesis: &Hypothesis) -> VehicleFile {
     let mut vehicle = file.clone();
     for effect in &hypothesis.effects {
         vehicle.effects.insert(effect.clone());
     }
-    correct_constants(&mut vehicle, hypothesis, added, hypothesis.friction_level);
+    correct_constants(&mut vehicle, hypothesis, hypothesis.friction_level);
     vehicle
 }
 

@@ -3,6 +3,9 @@
 //! Inertia and centripetal force share the mass over the friction, and a late clock looks like
 //! inertia: each alone may hide in a minimum far from the whole. So both are tried together, at
 //! levels of that one ratio over two decades, with the clock of the present fit and with none.
+//!
+//! The same accelerations move load to a side, by the height of the mass. A wrong height passes for
+//! strengths of inertia that differ, so the height is tried beside strengths that are one.
 
 use super::done::{Key, Step};
 use super::{Found, Search};
@@ -54,6 +57,48 @@ impl Search {
         let fit = Fit::from_point(best, &unknowns, &self.evidence);
         let found = self.recalibrated(effects, fit);
         self.done.keep(Key::step(beside, Step::Newton), &found);
+        Ok(Some(found))
+    }
+
+    /// A hypothesis with inertia, with what inertia does to the load beside it: refitted from the
+    /// best of the levels, with one level for all effects of inertia and a typical height. None
+    /// where it has that already, or no motion exists at any level.
+    ///
+    /// # Errors
+    /// [`Cancelled`], by the observer of the watch.
+    pub(super) fn with_load(
+        &self,
+        newton: &Found,
+        watch: &Watch,
+    ) -> Result<Option<Found>, Cancelled> {
+        let moves_load = |effect: &EffectId| effect.card().moves_load();
+        let load: Vec<EffectId> = EffectId::all().filter(moves_load).collect();
+        if load.iter().any(|effect| newton.effects.contains(effect)) {
+            return Ok(None);
+        }
+        let (effects, unknowns) = newton.extended(&load);
+        if let Some(found) = self.again(&effects) {
+            return Ok(Some(found));
+        }
+        let inertial = newton.effects.iter().copied().filter(|one| one.card().is_inertia());
+        let inertial: Vec<EffectId> = inertial.collect();
+        let high = at(&newton.fit.hypothesis, &load, 1.0);
+        let mut best: Option<Point> = None;
+        for &level in &self.settings().search.newton_levels {
+            watch.go_on()?;
+            let before = Some(&newton.fit.mechanics);
+            let start = at(&high, &inertial, level);
+            let point = Point::new(start, &unknowns, &self.evidence, before);
+            let most = best.as_ref().map_or(f64::INFINITY, |best| best.objective);
+            if point.objective < most {
+                best = Some(point);
+            }
+        }
+        let Some(best) = best else { return Ok(None) };
+        watch.go_on()?;
+        let fit = Fit::from_point(best, &unknowns, &self.evidence);
+        let found = self.recalibrated(effects, fit);
+        self.done.keep(Key::step(newton, Step::Newton), &found);
         Ok(Some(found))
     }
 }

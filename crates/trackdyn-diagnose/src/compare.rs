@@ -153,8 +153,11 @@ pub fn compare(
     let not_shown = not_shown.collect();
     let instruments = quantity::instruments(both, &choice, &uncertainties);
     let diagnoses = both.map(|set| set.diagnosis.clone());
+    let constants = groups.iter().find(|group| is_constants(group.subject));
+    let by_icrs = constants.map_or(Vec::new(), |group| constants::smallest(both, group));
+    let smallest = smallest(&diagnoses, &by_icrs);
     Ok(Comparison {
-        smallest: smallest(&diagnoses),
+        smallest,
         effects: choice.effects,
         filed: file.effects.iter().map(ActiveEffect::effect).collect(),
         diagnoses,
@@ -170,18 +173,19 @@ pub fn compare(
     })
 }
 
-/// Smallest differences of each size: the variances of both sets add.
-fn smallest(diagnoses: &[Diagnosis; 2]) -> Vec<Smallest> {
+/// Smallest differences of each size: the variances of both sets add. What acts as constant ICRs
+/// shows in these, beside which it would have to show in a diagnosis.
+fn smallest(diagnoses: &[Diagnosis; 2], by_icrs: &[Smallest]) -> Vec<Smallest> {
     let of = |diagnosis: &Diagnosis| -> BTreeMap<(EffectId, usize), Option<f64>> {
         let detectable = diagnosis.limits.detectable.iter();
         detectable.map(|one| ((one.effect, one.parameter), one.size)).collect()
     };
     let [first, second] = [0, 1].map(|k| of(&diagnoses[k]));
     let both = first.into_iter().filter_map(|(key, a)| Some((key, a, *second.get(&key)?)));
-    both.map(|((effect, parameter), a, b)| Smallest {
-        effect,
-        parameter,
-        size: a.zip(b).map(|(a, b)| a.hypot(b)),
+    both.map(|((effect, parameter), a, b)| {
+        let is_same = |one: &&Smallest| (one.effect, one.parameter) == (effect, parameter);
+        let apart = Smallest { effect, parameter, size: a.zip(b).map(|(a, b)| a.hypot(b)) };
+        *by_icrs.iter().find(is_same).unwrap_or(&apart)
     })
     .collect()
 }
@@ -189,7 +193,7 @@ fn smallest(diagnoses: &[Diagnosis; 2]) -> Vec<Smallest> {
 impl Comparison {
     /// What it says in a word.
     pub fn status(&self) -> Status {
-        if !self.left().is_empty() {
+        if !self.left().is_empty() || self.is_closer_apart() {
             Status::Unexplained
         } else if self.differences.iter().any(|one| one.one_of.len() > 1) {
             Status::Ambiguous
@@ -198,6 +202,12 @@ impl Comparison {
         } else {
             Status::Explained
         }
+    }
+
+    /// Whether the second set's own model explains its runs better than the first set's with what
+    /// is named, by more than the form of laws and what both leave alike.
+    pub fn is_closer_apart(&self) -> bool {
+        self.closer.left > self.beside_named.tolerated
     }
 
     /// Whether they differ in a way that no size of an effect explains.
@@ -234,7 +244,7 @@ impl Comparison {
     /// One sentence on where they differ: the driving, and what the difference depends on.
     pub fn place(&self) -> String {
         let broken = self.broken();
-        if self.differences.is_empty() && broken.is_empty() {
+        if self.differences.is_empty() && broken.is_empty() && !self.is_closer_apart() {
             return "nowhere: one model with the instruments of each explains both".to_owned();
         }
         let are_constants =

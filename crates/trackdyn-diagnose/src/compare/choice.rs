@@ -8,7 +8,7 @@ use super::bayes::shared_gain;
 use crate::diagnosis::Examination;
 use crate::diagnosis::Kind;
 use crate::fit::{Fit, Point};
-use crate::hypothesis::{Unknown, beyond_none};
+use crate::hypothesis::{Hypothesis, Unknown, beyond_none};
 use crate::mechanics::is_instrument;
 use crate::prior::prior;
 use crate::progress::{Cancelled, Watch};
@@ -58,7 +58,28 @@ impl Choice {
                 best = Some((evidence, choice));
             }
         }
-        Ok(best.expect("the union of the claims is a choice").1)
+        let best = best.expect("the union of the claims is a choice").1;
+        best.polished(sets, watch)
+    }
+
+    /// The choice with each fit started once more from all numbers of the other one: what is alike
+    /// in both is a good start, and one of them may stand in a worse minimum.
+    fn polished(self, sets: [&Examination; 2], watch: &Watch) -> Result<Self, Cancelled> {
+        let again = |k: usize| -> Result<Found, Cancelled> {
+            watch.go_on()?;
+            let [own, other] = [&self.fits[k], &self.fits[1 - k]];
+            let search = &sets[k].search;
+            let start = with_physics_of(&other.fit.hypothesis, &own.fit.hypothesis);
+            let before = Some(&own.fit.mechanics);
+            let start = Point::new(start, &own.fit.unknowns, &search.evidence, before);
+            if start.objective.is_infinite() {
+                return Ok(own.clone());
+            }
+            let fit = Fit::from_point(start, &own.fit.unknowns, &search.evidence);
+            Ok(better(own.clone(), search.recalibrated(own.effects.clone(), fit)))
+        };
+        let fits = [again(0)?, again(1)?];
+        Ok(Self { fits, ..self })
     }
 
     /// Fits these effects to both sets. Each fit starts once more from the sizes of the other.
@@ -74,9 +95,6 @@ impl Choice {
             fitted(sets[1], &effects, Some(&own[0]), watch)?,
         ];
         let [[a, b], [c, d]] = [own, again];
-        let better = |own: Found, again: Found| {
-            if again.ln_evidence > own.ln_evidence { again } else { own }
-        };
         let is_constant =
             |effect: &EffectId| sets.iter().any(|set| set.constants.class().contains(effect));
         let compared = effects.iter().copied().filter(|one| !is_constant(one)).collect();
@@ -102,6 +120,34 @@ impl Choice {
         });
         of_fits + gains.sum::<f64>()
     }
+}
+
+/// The one with the higher evidence.
+fn better(own: Found, again: Found) -> Found {
+    if again.ln_evidence > own.ln_evidence { again } else { own }
+}
+
+/// A hypothesis with the numbers of another one: those of its effects and of its vehicle, but not
+/// of encoders and pose sensor, nor what stands in the world.
+fn with_physics_of(other: &Hypothesis, own: &Hypothesis) -> Hypothesis {
+    let (offset, vehicle) = (other.offset, other.vehicle.clone());
+    let (friction_level, cog_moved) = (other.friction_level, other.cog_moved);
+    let moved = Hypothesis { vehicle, offset, friction_level, cog_moved, ..own.clone() };
+    let is_taken = |active: &&ActiveEffect| {
+        !is_instrument(&own.vehicle, active) && !is_of_the_world(active.effect())
+    };
+    own.effects
+        .iter()
+        .filter(is_taken)
+        .filter_map(|active| other.effect(active.effect()))
+        .fold(moved, |moved, there| moved.with_effect(there.clone()))
+}
+
+/// Whether an effect stands in the world: each set has its own.
+fn is_of_the_world(effect: EffectId) -> bool {
+    let of_the_world =
+        |role: Role| matches!(role, Role::Place { .. } | Role::Direction | Role::Time);
+    effect.card().parameters.iter().any(|parameter| of_the_world(parameter.role))
 }
 
 /// Sizes of an effect, as unknowns.
@@ -196,9 +242,7 @@ fn fitted(
 /// in the world: each set has its own.
 fn from_other(set: &Examination, beside: &Found, other: &Found, effect: EffectId) -> Option<Found> {
     let there = other.fit.hypothesis.effect(effect)?;
-    let of_the_world =
-        |role: Role| matches!(role, Role::Place { .. } | Role::Direction | Role::Time);
-    if effect.card().parameters.iter().any(|parameter| of_the_world(parameter.role)) {
+    if is_of_the_world(effect) {
         return None;
     }
     let (search, evidence) = (&set.search, &set.search.evidence);

@@ -1,5 +1,6 @@
 //! Which single number moves the constant ICRs of one set to those of the other.
 
+use super::Smallest;
 use super::quantity::{Estimate, Group, HALF, middle_half_y};
 use crate::base::spin_with;
 use crate::candidate::sizes;
@@ -26,17 +27,65 @@ pub(super) fn members(sets: [&Examination; 2], group: &Group) -> Vec<Member> {
     let both = first.iter().copied().filter(|effect| second.contains(effect));
     let class: Vec<EffectId> = both.collect();
     let vehicle = &sets[0].search.base.as_filed.hypothesis.vehicle;
-    let settings = sets[0].search.settings();
     let moved = Vector3::from_fn(|n, _| group.numbers[n].difference.value);
-    // ICRs are known to a part of the gauge, beside the noise.
-    let form = settings.verdict.min_icr_difference * vehicle.gauge / HALF;
-    let deviation = Vector3::from_fn(|n, _| group.numbers[n].difference.deviation().hypot(form));
+    let deviation = deviation(sets, group);
     let alone: Vec<Member> =
         class.iter().filter_map(|&effect| member(vehicle, effect, moved, deviation)).collect();
     if alone.is_empty() {
         return class.into_iter().map(|effect| Member { effect, sizes: Vec::new() }).collect();
     }
     alone
+}
+
+/// Standard deviations of the differences of constant ICRs, m: they are known to a part of the
+/// gauge, beside the noise.
+fn deviation(sets: [&Examination; 2], group: &Group) -> Vector3<f64> {
+    let search = &sets[0].search;
+    let gauge = search.base.as_filed.hypothesis.vehicle.gauge;
+    let form = search.settings().verdict.min_icr_difference * gauge / HALF;
+    Vector3::from_fn(|n, _| group.numbers[n].difference.deviation().hypot(form))
+}
+
+/// Smallest difference of each size of the class of constants that would have shown, by what it
+/// moves the constant ICRs.
+pub(super) fn smallest(sets: [&Examination; 2], group: &Group) -> Vec<Smallest> {
+    let search = &sets[0].search;
+    let (vehicle, deviation) = (&search.base.as_filed.hypothesis.vehicle, deviation(sets, group));
+    let least = search.settings().limits.min_detected_z;
+    let both = sets[0].constants.class().iter();
+    let both = both.filter(|effect| sets[1].constants.class().contains(effect));
+    let of_size = |effect: EffectId, parameter: usize| {
+        let card = &effect.card().parameters[parameter];
+        let none: Vec<f64> = effect.card().parameters.iter().map(neutral).collect();
+        let by = icr_slope(vehicle, effect, &none, parameter)?.component_div(&deviation).norm();
+        let most = (card.range[1] - neutral(card)).max(neutral(card) - card.range[0]);
+        let size = Some(least / by).filter(|size| *size <= most);
+        Some(Smallest { effect, parameter, size })
+    };
+    both.flat_map(|&effect| sizes(effect).into_iter().filter_map(move |size| of_size(effect, size)))
+        .collect()
+}
+
+/// Constant ICRs of a vehicle with an effect of these values: their middle, half distance and y.
+fn icrs(vehicle: &Vehicle, effect: EffectId, values: &[f64]) -> Option<Vector3<f64>> {
+    let effects: Effects = std::iter::once(active(effect, values)).collect();
+    Some(Vector3::from(middle_half_y(spin_with(vehicle, effects)?.into())))
+}
+
+/// Change of the constant ICRs per change of a parameter of an effect.
+fn icr_slope(
+    vehicle: &Vehicle,
+    effect: EffectId,
+    values: &[f64],
+    place: usize,
+) -> Option<Vector3<f64>> {
+    const STEP: f64 = 1e-3;
+    let parameter = &effect.card().parameters[place];
+    let step = STEP * typical_size(parameter);
+    let step = if values[place] + step > parameter.range[1] { -step } else { step };
+    let mut there = values.to_vec();
+    there[place] += step;
+    Some((icrs(vehicle, effect, &there)? - icrs(vehicle, effect, values)?) / step)
 }
 
 /// Sizes of an effect that move the constant ICRs by `moved`; none where no size in its range does,
@@ -50,27 +99,18 @@ fn member(
     deviation: Vector3<f64>,
 ) -> Option<Member> {
     const ROUNDS: usize = 30;
-    const STEP: f64 = 1e-3;
     let parameters = effect.card().parameters;
     let places = sizes(effect);
     let start: Vec<f64> = parameters.iter().map(neutral).collect();
-    let none = spin_with(vehicle, Effects::none())?;
-    let shift = |values: &[f64]| -> Option<Vector3<f64>> {
-        let effects: Effects = std::iter::once(active(effect, values)).collect();
-        let spin = spin_with(vehicle, effects)? - none;
-        Some(Vector3::from(middle_half_y(spin.into())).component_div(&deviation))
-    };
+    let none = Vector3::from(middle_half_y(spin_with(vehicle, Effects::none())?.into()));
+    let shift =
+        |values: &[f64]| Some((icrs(vehicle, effect, values)? - none).component_div(&deviation));
     let wanted = moved.component_div(&deviation);
     let slopes = |values: &[f64]| -> Option<DMatrix<f64>> {
-        let here = shift(values)?;
         let mut slopes = DMatrix::zeros(3, places.len());
         for (column, &place) in places.iter().enumerate() {
-            let parameter = &parameters[place];
-            let step = STEP * typical_size(parameter);
-            let step = if values[place] + step > parameter.range[1] { -step } else { step };
-            let mut there = values.to_vec();
-            there[place] += step;
-            slopes.set_column(column, &((shift(&there)? - here) / step));
+            let slope = icr_slope(vehicle, effect, values, place)?;
+            slopes.set_column(column, &slope.component_div(&deviation));
         }
         Some(slopes)
     };

@@ -11,7 +11,7 @@ use crate::equations::{Column, at_right_angles};
 use crate::fit::Fit;
 use crate::hypothesis::Unknown;
 use crate::normal::{Normal, Prior};
-use crate::prior::priors;
+use crate::prior::{prior, priors};
 use crate::resampling::Resampling;
 use crate::significance::{Group as Scores, test_family};
 use crate::verdict::{Refusal, Support};
@@ -186,11 +186,6 @@ fn taken(groups: &[Group]) -> Vec<Unknown> {
     taken
 }
 
-/// Sizes of effects among what is compared.
-fn effects(groups: &[Group]) -> impl Iterator<Item = &Quantity> {
-    groups.iter().filter(|group| !group.effects.is_empty()).flat_map(|group| &group.numbers)
-}
-
 /// Both sets with all groups in common, and where their numbers stand among the columns.
 pub(super) struct InCommon<'a> {
     /// The sets; differences are columns to be added.
@@ -198,8 +193,25 @@ pub(super) struct InCommon<'a> {
     /// Columns of what is free in a set by itself: the set, the place among the unknowns of its
     /// fit, and the index.
     pub own: Vec<(usize, usize, usize)>,
+    /// Columns of numbers that act as constant ICRs, which these are compared for: the place among
+    /// the unknowns of each fit, the value that both have, and the index.
+    pub constants: Vec<([usize; 2], f64, usize)>,
     /// Columns of the compared numbers, in the order of the groups; none where a fit has none.
     pub shared: Vec<Option<usize>>,
+}
+
+/// Unknowns of both fits that act as constant ICRs and are not compared: what differs in them shows
+/// in the ICRs, and one cause must not stand for two differences.
+fn as_constants(sets: [&Examination; 2], choice: &Choice) -> Vec<Unknown> {
+    let [first, second] = [0, 1].map(|k| &choice.fits[k].fit);
+    let is_one = |unknown: &&Unknown| match **unknown {
+        Unknown::Effect(effect, _) => {
+            let acts = sets.iter().any(|set| set.constants.class().contains(&effect));
+            acts && !choice.compared.contains(&effect) && second.unknowns.contains(unknown)
+        }
+        Unknown::Offset(_) | Unknown::FrictionLevel | Unknown::Cog(_) => false,
+    };
+    first.unknowns.iter().filter(is_one).copied().collect()
 }
 
 /// Both sets with all groups in common.
@@ -213,8 +225,9 @@ pub(super) fn in_common<'a>(
     let in_icrs = Fits { fits, moved };
     let evidence = sets.map(|set| &set.search.evidence);
     let mut joint = Joint::new(evidence, fits.map(|fit| &fit.residual[..]));
-    let mut own = Vec::new();
-    let taken = taken(groups);
+    let (mut own, mut constants) = (Vec::new(), Vec::new());
+    let as_constants = as_constants(sets, choice);
+    let taken = [taken(groups), as_constants.clone()].concat();
     for (k, fit) in fits.into_iter().enumerate() {
         let known = priors(&fit.hypothesis, &fit.unknowns, evidence[k]);
         for (place, (unknown, prior)) in fit.unknowns.iter().zip(known).enumerate() {
@@ -222,14 +235,35 @@ pub(super) fn in_common<'a>(
                 own.push((k, place, joint.free_in(k, &in_icrs.column(k, place), prior)));
             }
         }
-        // another size must not pass for another form
-        let sizes: Vec<Column> =
-            effects(groups).filter_map(|of| in_icrs.of(k, of.number)).collect();
+        // other sizes, or other ICRs, must not pass for another form
+        let numbers = groups.iter().flat_map(|group| &group.numbers);
+        let compared = numbers.filter_map(|of| in_icrs.of(k, of.number));
+        let compared = compared.fold(Vec::new(), |mut before: Vec<Column>, column| {
+            before.push(before.iter().fold(column, at_right_angles));
+            before
+        });
         let forms = &choice.fits[k].forms;
         for (column, prior) in forms.columns.iter().zip(&forms.priors) {
-            let form = sizes.iter().fold(column.clone(), at_right_angles);
+            let form = compared.iter().fold(column.clone(), at_right_angles);
             joint.free_in(k, &form, *prior);
         }
+    }
+    for unknown in as_constants {
+        let place = |k: usize| fits[k].unknowns.iter().position(|one| *one == unknown);
+        let (Some(first), Some(second)) = (place(0), place(1)) else { continue };
+        let places = [first, second];
+        let values = fits.map(|fit| fit.hypothesis.get(unknown));
+        let weight = |k: usize| fits[k].solution.covariance[(places[k], places[k])].recip();
+        let [a, b] = [weight(0), weight(1)];
+        let common = (a * values[0] + b * values[1]) / (a + b);
+        let columns = [0, 1].map(|k| in_icrs.column(k, places[k]));
+        for (k, column) in columns.iter().enumerate() {
+            joint.add_back(k, column, values[k] - common);
+        }
+        let known = prior(&fits[0].hypothesis, unknown, evidence[0]);
+        let known = Prior { mean: known.mean - common, ..known };
+        let column = joint.free_in_both([&columns[0], &columns[1]], known);
+        constants.push((places, common, column));
     }
     let mut share = |quantity: &Quantity| {
         let [first, second] = [in_icrs.of(0, quantity.number)?, in_icrs.of(1, quantity.number)?];
@@ -240,7 +274,7 @@ pub(super) fn in_common<'a>(
         Some(joint.free_in_both([&first, &second], prior_of_difference(quantity)))
     };
     let shared = groups.iter().flat_map(|group| &group.numbers).map(&mut share).collect();
-    InCommon { joint, own, shared }
+    InCommon { joint, own, constants, shared }
 }
 
 /// Both sets with all groups in common; differences are columns to be added.
@@ -297,8 +331,7 @@ pub(super) fn judge(
     let fits = Fits { fits: [&choice.fits[0].fit, &choice.fits[1].fit], moved };
     let equations = joint.equations(more(&joint, fits, &groups));
     let all: Vec<usize> = equations.groups.concat();
-    let misfit = |columns: &[usize]| equations.fit_with(columns).misfit;
-    let whole_misfit = misfit(&all);
+    let whole = equations.fit_with(&all);
     let settings = sets[0].search.settings();
     let projected = equations.projected();
     // each group beside the differences of all others
@@ -325,11 +358,17 @@ pub(super) fn judge(
     judged
         .map(|(((group, own), (others, normal)), test)| {
             let alternatives = alternatives(&group);
+            let without = equations.fit_with(&others);
+            let ln_bayes_factor = match group.subject {
+                // what blurs the ICRs of a set is the same in both
+                Subject::Constants => whole.ln_evidence - without.ln_evidence,
+                _ => alternatives.for_difference(),
+            };
             let support = Support {
                 p: test.p,
-                ln_bayes_factor: alternatives.for_difference(),
+                ln_bayes_factor,
                 stable: 1.0,
-                z: (misfit(&others) - whole_misfit).max(0.0).sqrt(),
+                z: (without.misfit - whole.misfit).max(0.0).sqrt(),
                 ..Support::of_blocks(&normal, &equations.priors, own)
             };
             let refused = refusal(&group, &support, departure.sqrt(), sets);

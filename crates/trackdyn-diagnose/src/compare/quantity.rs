@@ -268,8 +268,8 @@ pub(super) fn middle_half_y([left, right, y]: [f64; 3]) -> [f64; 3] {
     [f64::midpoint(left, right), (right - left) / 2.0, y]
 }
 
-/// The constant ICRs of a hypothesis in a slow spin: without effects other than those that the fit
-/// has beside the compared ones, which act as constants.
+/// The constant ICRs of a hypothesis in a slow spin: without effects other than those that act as
+/// constants.
 fn icrs(hypothesis: &Hypothesis, beside: &[EffectId]) -> Option<[f64; 3]> {
     let effects = hypothesis.effects.iter().filter(|one| beside.contains(&one.effect()));
     let effects: Effects = effects.cloned().collect();
@@ -285,12 +285,8 @@ fn constants(
     spreads: [&Spread; 2],
 ) -> Option<(Group, [Gradients; 2])> {
     let of = |k: usize| -> Option<([Estimate; 3], Gradients)> {
-        let Found { fit, effects, .. } = &choice.fits[k];
-        let is_beside = |effect: &&EffectId| {
-            !choice.compared.contains(effect)
-                && (choice.effects.contains(effect) || sets[k].constants.mostly.contains(effect))
-        };
-        let beside: Vec<EffectId> = effects.iter().filter(is_beside).copied().collect();
+        let fit = &choice.fits[k].fit;
+        let beside = beside(sets, choice, &fit.hypothesis);
         let here = icrs(&fit.hypothesis, &beside)?;
         let by = |&unknown: &Unknown| -> Option<[f64; 3]> {
             let Some(step) = step(&fit.hypothesis, unknown, &beside) else {
@@ -310,7 +306,8 @@ fn constants(
     };
     let [(first, of_first), (second, of_second)] = [of(0)?, of(1)?];
     let filed = &sets[0].search.base.as_filed.hypothesis;
-    let mean = icrs(&Hypothesis { offset: [0.0; 3], ..filed.clone() }, &[])?;
+    let centred = Hypothesis { offset: [0.0; 3], ..filed.clone() };
+    let mean = icrs(&centred, &beside(sets, choice, filed))?;
     let gauge = filed.vehicle.gauge;
     let settings = sets[0].search.settings();
     let deviation = settings.prior.icr_offset_deviation * gauge;
@@ -321,6 +318,18 @@ fn constants(
     let numbers = numbers.collect();
     let group = Group { subject: Subject::Constants, effects: Vec::new(), numbers };
     Some((group, [of_first, of_second]))
+}
+
+/// Effects of a hypothesis that act as constant ICRs, its own and those of the vehicle file: where
+/// they are free, they and the offsets are known together alone.
+fn beside(sets: [&Examination; 2], choice: &Choice, hypothesis: &Hypothesis) -> Vec<EffectId> {
+    let is_one = |effect: &EffectId| {
+        let acts = sets.iter().any(|set| {
+            set.constants.mostly.contains(effect) || set.constants.class().contains(effect)
+        });
+        !choice.compared.contains(effect) && (choice.effects.contains(effect) || acts)
+    };
+    hypothesis.effects.iter().map(ActiveEffect::effect).filter(is_one).collect()
 }
 
 /// A step of an unknown that moves constant ICRs; none for one that does not.

@@ -40,7 +40,7 @@ impl Sets<'_> {
     pub fn model(&self, claimed: &[Subject]) -> Shared {
         let Self { sets, choice, groups, moved } = *self;
         let fits = Fits { fits: [&choice.fits[0].fit, &choice.fits[1].fit], moved };
-        let InCommon { mut joint, own, shared } = in_common(sets, choice, groups, moved);
+        let InCommon { mut joint, own, constants, shared } = in_common(sets, choice, groups, moved);
         let is_claimed = |group: &Group| claimed.contains(&group.subject);
         let numbers: Vec<(&Quantity, bool)> = groups
             .iter()
@@ -60,6 +60,11 @@ impl Sets<'_> {
         let gradient = |place: usize| moved.map_or([0.0; 3], |moved| moved[1][place]);
         for (_, place, column) in own.into_iter().filter(|(set, ..)| *set == 1) {
             second.by(fit.unknowns[place], factors[column], gradient(place));
+        }
+        for (places, common, column) in constants {
+            let unknown = fit.unknowns[places[1]];
+            let by = common + factors[column] - fit.hypothesis.get(unknown);
+            second.by(unknown, by, gradient(places[1]));
         }
         let places = |number: Number| {
             let places = 0..fit.unknowns.len();

@@ -24,13 +24,22 @@ pub fn headline(comparison: &Comparison) -> &'static str {
         Status::Unexplained if is_named => {
             "SIM and REAL differ, and what is named explains a part of it only."
         }
+        Status::Unexplained if comparison.is_closer_apart() => {
+            "SIM and REAL differ, and what differs is not told apart."
+        }
         Status::Unexplained => "SIM and REAL differ, and nothing in the catalogue explains it.",
     }
 }
 
 /// What is said where nothing is named.
 pub fn nothing_named(comparison: &Comparison) -> String {
-    if comparison.status() == Status::Unexplained {
+    if comparison.status() == Status::Unexplained && comparison.is_closer_apart() {
+        let [sim, _, real] = comparison.closer.errors;
+        format!(
+            "something that is not told apart: SIM's model leaves {sim:.2} times the noise of the \
+             runs of REAL, REAL's own {real:.2}, and no one number is surely what differs"
+        )
+    } else if comparison.status() == Status::Unexplained {
         "something outside the catalogue: no effect and no number of the vehicle explains it"
             .to_owned()
     } else {

@@ -73,6 +73,30 @@ fn half_a_minute_without_rest_is_diagnosed() {
     }
 }
 
+/// A height that the file has wrong, beside Newton's law that it lacks, looks like strengths of
+/// inertia that differ. The corrected vehicle drives as the fit does.
+#[test]
+fn a_wrong_height_is_named_beside_inertia_that_is_missing() {
+    let height = "load-transfer:cog_height_m=0.22";
+    let concealed = ["yaw-inertia", "centripetal", height];
+    let mut file = owned(&concealed);
+    file.effects.insert("load-transfer:cog_height_m=0.1".parse().expect("an effect"));
+    let found = diagnosed(&recording(&concealed), &file).expect("an answer");
+    let names = physics(&found);
+    for name in ["yaw-inertia", "centripetal", "load-transfer"] {
+        assert!(names.contains(&BTreeSet::from([name])), "{names:?}");
+    }
+    assert_eq!(names.len(), 3, "{names:?}");
+    let sizes = |name: &str| {
+        let one = found.answer.missing.iter().find(|one| one.verdict.effect.name() == name);
+        one.expect("a claim").parameters[0]
+    };
+    let height = sizes("load-transfer");
+    assert!(height.low < 0.22 && 0.22 < height.high && height.low > 0.15, "{height:?}");
+    let place = found.evidence.drift.place.expect("enough driving");
+    assert!(place.after.value < 0.7 * place.before.value, "{place:?}");
+}
+
 /// The headings of a map are good to a degree: a drift of the friction hides in them, and shows
 /// with its size beside a gyroscope.
 #[test]

@@ -190,7 +190,8 @@ impl Calibration {
         }
     }
 
-    /// The hypothesis with a vehicle that absorbs the ICR offset; none where no such vehicle exists.
+    /// The hypothesis with a vehicle that absorbs the ICR offset; none where no such vehicle
+    /// exists.
     pub fn calibrated(self, hypothesis: &Hypothesis) -> Option<Hypothesis> {
         let wanted = spin(&hypothesis.vehicle)? + Vector3::from(hypothesis.offset);
         let Absorbed { vehicle, by, off } = self.absorbed(&hypothesis.vehicle, wanted, &spin)?;
@@ -261,14 +262,19 @@ struct Absorbed {
 
 /// Sets friction and centre of gravity of a vehicle file to those of a vehicle that has, with the
 /// effects of the file, the constant ICRs of a hypothesis, at the friction level `level`; to those
-/// of the hypothesis where no vehicle has these ICRs.
+/// of the hypothesis, without effects, where no vehicle has these ICRs.
 pub fn correct_constants(file: &mut VehicleFile, hypothesis: &Hypothesis, level: f64) {
     let from = with_friction(&hypothesis.vehicle, level - hypothesis.friction_level);
     let spin = |vehicle: &Vehicle| spin_with(vehicle, file.effects.clone());
     let own = spin_with(&hypothesis.vehicle, hypothesis.effects.clone());
     let wanted = own.map(|own| own + Vector3::from(hypothesis.offset));
     let absorbed = wanted.and_then(|wanted| Calibration::Vehicle.absorbed(&from, wanted, &spin));
-    let vehicle = absorbed.map_or(from, |absorbed| absorbed.vehicle);
+    let alone = || {
+        let calibrated = Calibration::Vehicle.calibrated(hypothesis)?;
+        Some(with_friction(&calibrated.vehicle, level - hypothesis.friction_level))
+    };
+    let absorbed = absorbed.map(|absorbed| absorbed.vehicle);
+    let vehicle = absorbed.or_else(alone).unwrap_or(from);
     file.vehicle.friction = vehicle.friction;
     file.vehicle.cog = vehicle.cog;
 }

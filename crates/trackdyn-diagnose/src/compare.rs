@@ -11,6 +11,7 @@ mod closer;
 mod constants;
 mod difference;
 pub mod document;
+mod in_common;
 mod joint;
 mod level;
 mod quantity;
@@ -119,6 +120,7 @@ pub fn compare(
     let uncertainties = [0, 1].map(|k| Uncertainty::of(&both[k].search, &choice.fits[k]));
     let (groups, moved) =
         watch.stage(Stage::Differences, || quantity::groups(both, &choice, &uncertainties))?;
+    let groups = level::with_level(groups, both, &choice);
     let moved = moved.as_ref();
     let judged = difference::judge(both, &choice, groups.clone(), moved, resampling);
     let compared = Sets { sets: both, choice: &choice, groups: &groups, moved };
@@ -129,7 +131,7 @@ pub fn compare(
     let icrs = remainder::icrs(both, &choice);
     let beside = |is_free: &dyn Fn(Subject) -> bool| {
         let free = groups.iter().filter(|group| is_free(group.subject));
-        difference::joint_beside(both, &choice, &groups, moved, free)
+        in_common::joint_beside(both, &choice, &groups, moved, free)
     };
     let is_named = |subject: Subject| differences.iter().any(|one| one.group.subject == subject);
     let is_constants = |subject: Subject| subject == Subject::Constants;
@@ -142,7 +144,7 @@ pub fn compare(
     let before = of(beside(&is_constants), 0.0);
     let beside_named = of(beside_named, of_laws.max(0.0));
     let after = of(remainder::apart(both, &choice), 0.0);
-    let left = difference::joint(both, &choice, &groups, moved).left();
+    let left = in_common::joint(both, &choice, &groups, moved).left();
     let cells = remainder::cells(both, &icrs, &left);
     let closer = Closer::of(compared, &differences, file);
     let not_shown = choice.effects.iter().flat_map(|&effect| {
@@ -207,12 +209,19 @@ impl Comparison {
     /// Whether the second set's own model explains its runs better than the first set's with what
     /// is named, by more than the form of laws and what both leave alike.
     pub fn is_closer_apart(&self) -> bool {
-        self.closer.left > self.beside_named.tolerated
+        self.closer.left > self.closer_tolerated()
     }
 
-    /// Whether they differ in a way that no size of an effect explains.
-    pub fn is_outside_the_catalogue(&self) -> bool {
-        !self.after.surely_broken().is_empty()
+    /// Twice the log-likelihood by which the second set's own model may explain its runs better:
+    /// by the form of laws and of what both sets depart by alike.
+    pub fn closer_tolerated(&self) -> f64 {
+        self.beside_named.tolerated
+    }
+
+    /// Whether all that is left is that the second set's own model is better: no symmetry tells
+    /// where.
+    pub fn is_not_told_apart(&self) -> bool {
+        self.is_closer_apart() && self.left().is_empty()
     }
 
     /// Effects that both sets have alike and the vehicle file lacks.
@@ -247,8 +256,8 @@ impl Comparison {
         if self.differences.is_empty() && broken.is_empty() && !self.is_closer_apart() {
             return "nowhere: one model with the instruments of each explains both".to_owned();
         }
-        let are_constants =
-            self.differences.iter().all(|one| !matches!(one.group.subject, Subject::Effect(_)));
+        let are_constants = !self.differences.is_empty()
+            && self.differences.iter().all(|one| !matches!(one.group.subject, Subject::Effect(_)));
         let on = if broken.is_empty() {
             are_constants.then(|| "it is the same in all driving".to_owned())
         } else {
@@ -271,9 +280,9 @@ impl Comparison {
             for ((a, s), (b, t)) in cell.departure.into_iter().zip(other.departure) {
                 let z = (b - a).abs() / s.hypot(t);
                 if best.as_ref().is_none_or(|(most, _)| z > *most) && z.is_finite() {
-                    let direction = if cell.forward { "forward" } else { "backward" };
+                    let way = cell.way();
                     let words = format!(
-                        "the ICRs differ most surely in {} {direction} at {:.2} m/s, by {:.0} mm",
+                        "the ICRs differ most surely in {} {way} at {:.2} m/s, by {:.0} mm",
                         cell.manoeuvre.name(),
                         cell.mean_speed,
                         1e3 * (b - a).abs()

@@ -59,24 +59,22 @@ pub struct Compared {
 }
 
 impl Drift {
-    /// Drift over all runs of evidence; none of a table of steady points, or where a motion in time
-    /// fails. `near` is the mechanics of a vehicle similar to the corrected one on the same
-    /// evidence, by which that is moved.
+    /// Drift over all runs of evidence with two vehicle files, as filed and as corrected; none of a
+    /// table of steady points, or where a motion in time fails. `near` is the mechanics of a
+    /// similar vehicle on the same evidence, by which that is moved.
     ///
     /// A piece crosses no gap, and no sample that is lost or has no motion. Pieces are as long as
     /// ten of them allow.
     pub fn of(
         evidence: &Weighted,
-        filed: &VehicleFile,
-        corrected: &VehicleFile,
-        near: Option<&Mechanics>,
+        files: [&VehicleFile; 2],
+        near: [Option<&Mechanics>; 2],
     ) -> Self {
         if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
             return Self::default();
         }
-        let motions = [(filed, None), (corrected, near)]
-            .map(|(file, near)| replay::motions_near(evidence, file, near));
-        let [Some(before), Some(after)] = motions else { return Self::default() };
+        let [before, after] = [0, 1].map(|k| replay::motions_near(evidence, files[k], near[k]));
+        let (Some(before), Some(after)) = (before, after) else { return Self::default() };
         let motions = [before, after];
         let samples = evidence.samples();
         let travelled = |sample: &Sample, _| {

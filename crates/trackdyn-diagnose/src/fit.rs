@@ -456,7 +456,8 @@ impl Fit {
     }
 }
 
-fn at_bound(hypothesis: &Hypothesis, unknown: Unknown, step: f64) -> bool {
+/// Whether an unknown stands at a bound that a step would cross.
+pub(crate) fn at_bound(hypothesis: &Hypothesis, unknown: Unknown, step: f64) -> bool {
     let value = hypothesis.get(unknown);
     let [low, high] = hypothesis.range(unknown);
     (value <= low && step < 0.0) || (value >= high && step > 0.0)

@@ -329,7 +329,9 @@ impl Mechanics {
                 let known = before.and_then(|before| before.in_time.inertia());
                 let the_way = Within::the_way(&evidence.settings().mechanics);
                 let moved = known.and_then(|known| known.moved(&inert, &case, the_way));
-                moved.map_or(InTime::Impossible(reason), InTime::OfAnother)
+                // a step of a difference quotient without a slope changes nothing
+                let kept = || known.filter(|_| within.is_a_step()).cloned();
+                moved.or_else(kept).map_or(InTime::Impossible(reason), InTime::OfAnother)
             }
         }
     }

@@ -16,8 +16,8 @@ pub fn motions(evidence: &Evidence, file: &VehicleFile) -> Vec<Pose> {
     by(&mechanics, &instruments, evidence)
 }
 
-/// As [`motions`], beside the mechanics of a similar vehicle on the same evidence, by which a motion
-/// in time is moved that cannot be simulated; none where it fails all the same.
+/// As [`motions`], beside the mechanics of a similar vehicle on the same evidence, by which a
+/// motion in time is moved that cannot be simulated; none where it fails all the same.
 pub fn motions_near(
     evidence: &Evidence,
     file: &VehicleFile,

@@ -69,6 +69,12 @@ impl Choice {
             watch.go_on()?;
             let [own, other] = [&self.fits[k], &self.fits[1 - k]];
             let search = &sets[k].search;
+            let is_free = |unknown| own.fit.unknowns.contains(&unknown);
+            let of_vehicle = [Unknown::FrictionLevel, Unknown::Cog(0), Unknown::Cog(1)];
+            let is_alike = |unknown| is_free(unknown) == other.fit.unknowns.contains(&unknown);
+            if !of_vehicle.into_iter().all(is_alike) {
+                return Ok(own.clone());
+            }
             let start = with_physics_of(&other.fit.hypothesis, &own.fit.hypothesis);
             let before = Some(&own.fit.mechanics);
             let start = Point::new(start, &own.fit.unknowns, &search.evidence, before);

@@ -51,9 +51,11 @@ impl Closer {
         let fitted = Some(&choice.fits[1].fit.mechanics);
         let [shared, alone] = [&as_second, own].map(|one| Predicted::by(one, seen, fitted).loss);
         let free = real(choice.fits[1].fit.free.len());
+        let by_chance = free + CHANCE * (2.0 * free).sqrt();
         Self {
-            left: shared - alone - free - CHANCE * (2.0 * free).sqrt(),
-            drift: Drift::of(evidence, &first, &second, fitted),
+            // what cannot be predicted is no evidence
+            left: if shared.is_finite() { shared - alone - by_chance } else { 0.0 },
+            drift: Drift::of(evidence, [&first, &second], [fitted; 2]),
             errors,
             are_held_out: judging.is_some(),
             vehicle: second,
@@ -118,7 +120,7 @@ fn vehicle(file: &VehicleFile, hypothesis: &Hypothesis) -> VehicleFile {
 struct Predicted {
     /// Weighted root mean square of the whitened residual.
     error: f64,
-    /// Twice the negative log-likelihood.
+    /// Twice the negative log-likelihood; ∞ where no motion in time exists.
     loss: f64,
 }
 
@@ -128,7 +130,9 @@ impl Predicted {
         let mechanics = Mechanics::beside(before, hypothesis, evidence);
         let prediction = mechanics.predict(&Instruments::of(hypothesis), evidence);
         let residual = evidence.residual(&prediction);
-        Self { error: excess(evidence, &residual), loss: evidence.loss(&residual) }
+        let is_possible = mechanics.failure().is_none();
+        let loss = if is_possible { evidence.loss(&residual) } else { f64::INFINITY };
+        Self { error: excess(evidence, &residual), loss }
     }
 
     /// Log-likelihood over that of another prediction.

@@ -132,6 +132,13 @@ pub struct CloserTable {
     pub corrected: f64,
     /// Error of the robot's own model.
     pub real: f64,
+    /// Twice the log-likelihood by which the robot's own model explains the runs of the fit better
+    /// than the simulator's with what differs, beyond chance.
+    #[serde(default)]
+    pub left: f64,
+    /// What is tolerated of it.
+    #[serde(default)]
+    pub tolerated: f64,
     /// Drift of dead reckoning with the simulator's model (`before`) and with what differs as in
     /// the robot (`after`).
     #[serde(default, skip_serializing_if = "DriftTable::is_empty")]
@@ -184,6 +191,8 @@ impl ComparisonFile {
                 sim: first,
                 corrected,
                 real: second,
+                left: rounded(comparison.closer.left),
+                tolerated: rounded(comparison.closer_tolerated()),
                 drift: DriftTable::of(&comparison.closer.drift),
             },
             smallest,

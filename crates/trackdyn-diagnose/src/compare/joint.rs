@@ -43,9 +43,23 @@ impl<'a> Joint<'a> {
         self.columns.len() - 1
     }
 
-    /// Factors of all columns, by their indices.
-    pub fn factors(&self) -> DVector<f64> {
-        self.equations(Vec::new()).fit_with(&[]).estimate
+    /// Factors of all columns, by their indices; those that would cross a bound stay zero.
+    /// `crosses` says so of a column and its factor.
+    pub fn factors(&self, crosses: impl Fn(usize, f64) -> bool) -> DVector<f64> {
+        let equations = self.equations(Vec::new());
+        let mut free = equations.free.clone();
+        loop {
+            let solution = equations.normal.fit(&free, &equations.priors);
+            let steps = || free.iter().zip(solution.estimate.iter());
+            let Some(place) = steps().position(|(&column, &by)| crosses(column, by)) else {
+                let mut factors = DVector::zeros(self.columns.len());
+                for (&column, &by) in steps() {
+                    factors[column] = by;
+                }
+                return factors;
+            };
+            free.remove(place);
+        }
     }
 
     /// Adds a part of the prediction of a set back to its residual.

@@ -10,14 +10,50 @@
 //! # Sources
 //! Birge, Physical Review 40(2), 1932 (the scale of χ²).
 
+use super::choice::Choice;
 use super::quantity::{Estimate, Group, HALF, Number, Quantity, Subject};
+use crate::diagnosis::Examination;
+use crate::hypothesis::Unknown;
 use crate::normal::Prior;
+use crate::prior::prior;
+use crate::search::Found;
 use trackdyn_core::real;
 use trackdyn_model::EffectId;
 
+/// These groups, with the level of friction in place of the strengths of inertia, where it stands
+/// for all of them.
+pub(super) fn with_level(
+    mut groups: Vec<Group>,
+    sets: [&Examination; 2],
+    choice: &Choice,
+) -> Vec<Group> {
+    let search = &sets[0].search;
+    let hypothesis = &search.base.as_filed.hypothesis;
+    let known = prior(hypothesis, Unknown::FrictionLevel, &search.evidence);
+    let level = group(&groups, &known);
+    if let Some(level) = level.filter(|level| stands_for_all(level, &choice.fits)) {
+        groups.retain(|group| !group.effects.iter().any(|one| level.effects.contains(one)));
+        groups.push(level);
+    }
+    groups
+}
+
+/// Whether a level of friction stands for all strengths of inertia that are free in these fits, and
+/// friction is not free beside it.
+fn stands_for_all(level: &Group, fits: &[Found; 2]) -> bool {
+    let is_other = |unknown: &Unknown| match *unknown {
+        Unknown::FrictionLevel => true,
+        Unknown::Effect(effect, _) => {
+            Number::Level.moves(*unknown) && !level.effects.contains(&effect)
+        }
+        Unknown::Offset(_) | Unknown::Cog(_) => false,
+    };
+    fits.iter().all(|found| !found.fit.unknowns.iter().any(is_other))
+}
+
 /// The level of friction by the effects of inertia among these groups that both sets surely have;
 /// none where there is none. Its prior is that of ln friction.
-pub(super) fn group(groups: &[Group], prior: &Prior) -> Option<Group> {
+fn group(groups: &[Group], prior: &Prior) -> Option<Group> {
     let is_sure = |one: &Quantity| one.each.iter().all(|each| each.low > 0.0);
     let inertial: Vec<&Group> = groups
         .iter()

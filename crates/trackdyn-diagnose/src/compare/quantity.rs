@@ -1,7 +1,6 @@
 //! Numbers that both sets have, with an estimate in each.
 
 use super::choice::{Choice, sizes};
-use super::level;
 use crate::base::spin_with;
 use crate::diagnosis::Examination;
 use crate::hypothesis::{Hypothesis, Unknown, neutral, typical_size};
@@ -191,11 +190,6 @@ pub(super) fn groups(
     let mut groups = of_effects(&effects, sets, choice, uncertainties);
     let evidence = &sets[0].search.evidence;
     let hypothesis = &sets[0].search.base.as_filed.hypothesis;
-    if let Some(level) = level::group(&groups, &prior(hypothesis, Unknown::FrictionLevel, evidence))
-    {
-        groups.retain(|group| !group.effects.iter().any(|one| level.effects.contains(one)));
-        groups.push(level);
-    }
     let (constants, gradients) = constants(sets, choice, spreads).unzip();
     groups.extend(constants);
     for (subject, unknowns) in [

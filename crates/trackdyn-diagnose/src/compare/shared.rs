@@ -5,9 +5,10 @@
 //! prediction that the claim makes worse.
 
 use super::choice::Choice;
-use super::difference::{Fits, InCommon, in_common, prior_of_difference};
+use super::in_common::{Fits, InCommon, in_common, prior_of_difference};
 use super::quantity::{Gradients, Group, Number, Quantity, Subject};
 use crate::diagnosis::Examination;
+use crate::fit::{Fit, at_bound};
 use crate::hypothesis::{Hypothesis, Unknown};
 
 /// Two sets with the numbers that are compared.
@@ -53,12 +54,19 @@ impl Sets<'_> {
                 Some(joint.free_in(1, &column, prior_of_difference(quantity)))
             })
             .collect();
-        let factors = joint.factors();
-        let factor = |column: Option<usize>| column.map_or(0.0, |column| factors[column]);
         let fit = fits.fits[1];
+        // An unknown at a bound that its step would cross is held there.
+        let crosses = |column: usize, by: f64| {
+            own.iter().any(|&(set, place, own)| {
+                let Fit { hypothesis, unknowns, .. } = fits.fits[set];
+                own == column && at_bound(hypothesis, unknowns[place], by)
+            })
+        };
+        let factors = joint.factors(crosses);
+        let factor = |column: Option<usize>| column.map_or(0.0, |column| factors[column]);
         let mut second = Moved::new(&fit.hypothesis);
         let gradient = |place: usize| moved.map_or([0.0; 3], |moved| moved[1][place]);
-        for (_, place, column) in own.into_iter().filter(|(set, ..)| *set == 1) {
+        for &(_, place, column) in own.iter().filter(|(set, ..)| *set == 1) {
             second.by(fit.unknowns[place], factors[column], gradient(place));
         }
         for (places, common, column) in constants {

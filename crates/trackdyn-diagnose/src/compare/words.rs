@@ -24,7 +24,7 @@ pub fn headline(comparison: &Comparison) -> &'static str {
         Status::Unexplained if is_named => {
             "SIM and REAL differ, and what is named explains a part of it only."
         }
-        Status::Unexplained if comparison.is_closer_apart() => {
+        Status::Unexplained if comparison.is_not_told_apart() => {
             "SIM and REAL differ, and what differs is not told apart."
         }
         Status::Unexplained => "SIM and REAL differ, and nothing in the catalogue explains it.",
@@ -33,7 +33,7 @@ pub fn headline(comparison: &Comparison) -> &'static str {
 
 /// What is said where nothing is named.
 pub fn nothing_named(comparison: &Comparison) -> String {
-    if comparison.status() == Status::Unexplained && comparison.is_closer_apart() {
+    if comparison.is_not_told_apart() {
         let [sim, _, real] = comparison.closer.errors;
         format!(
             "something that is not told apart: SIM's model leaves {sim:.2} times the noise of the \

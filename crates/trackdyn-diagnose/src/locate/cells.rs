@@ -25,6 +25,18 @@ pub struct Cell {
     pub departure: [(f64, f64); 3],
 }
 
+impl Cell {
+    /// Which way it drives, in words.
+    pub fn way(&self) -> &'static str {
+        match (self.manoeuvre, self.forward) {
+            (Manoeuvre::Spin, true) => "to the left",
+            (Manoeuvre::Spin, false) => "to the right",
+            (_, true) => "forward",
+            (_, false) => "backward",
+        }
+    }
+}
+
 /// All cells with enough samples that turn.
 pub fn cells(evidence: &Weighted, residual: &[Vector3<f64>], icrs: &IcrColumns) -> Vec<Cell> {
     let bounds = thirds(evidence.samples());

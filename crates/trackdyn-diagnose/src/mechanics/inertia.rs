@@ -43,6 +43,11 @@ impl Within {
     /// A finite-difference step of any size.
     pub const A_STEP: Self = Self { known: f64::MAX, unknown: f64::MAX, late: f64::MAX };
 
+    /// Whether any distance is a step of a difference quotient.
+    pub fn is_a_step(self) -> bool {
+        self.unknown == f64::MAX
+    }
+
     /// Whether a departure is extrapolated over this distance in a parameter with a known slope.
     pub fn knows(self, distance: f64) -> bool {
         distance.abs() <= self.known

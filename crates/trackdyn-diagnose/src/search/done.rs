@@ -37,7 +37,7 @@ pub enum Step {
     Add(Vec<(usize, Vec<f64>)>),
     /// Leaves out an effect.
     Leave(EffectId),
-    /// Adds all effects of inertia.
+    /// Adds all effects of inertia, or what inertia does to the load.
     Newton,
 }
 

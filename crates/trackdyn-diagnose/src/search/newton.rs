@@ -61,7 +61,8 @@ impl Search {
     }
 
     /// A hypothesis with inertia, with what inertia does to the load beside it: refitted from the
-    /// best of the levels, with one level for all effects of inertia and a typical height. None
+    /// best of the levels, with one level for all effects of inertia, at a typical height and at
+    /// that of the vehicle file. None
     /// where it has that already, or no motion exists at any level.
     ///
     /// # Errors
@@ -82,16 +83,22 @@ impl Search {
         }
         let inertial = newton.effects.iter().copied().filter(|one| one.card().is_inertia());
         let inertial: Vec<EffectId> = inertial.collect();
-        let high = at(&newton.fit.hypothesis, &load, 1.0);
+        let here = &newton.fit.hypothesis;
+        let mut heights = vec![at(here, &load, 1.0)];
+        if load.iter().any(|&effect| here.effect(effect).is_some()) {
+            heights.push(here.clone());
+        }
         let mut best: Option<Point> = None;
         for &level in &self.settings().search.newton_levels {
-            watch.go_on()?;
-            let before = Some(&newton.fit.mechanics);
-            let start = at(&high, &inertial, level);
-            let point = Point::new(start, &unknowns, &self.evidence, before);
-            let most = best.as_ref().map_or(f64::INFINITY, |best| best.objective);
-            if point.objective < most {
-                best = Some(point);
+            for high in &heights {
+                watch.go_on()?;
+                let before = Some(&newton.fit.mechanics);
+                let start = at(high, &inertial, level);
+                let point = Point::new(start, &unknowns, &self.evidence, before);
+                let most = best.as_ref().map_or(f64::INFINITY, |best| best.objective);
+                if point.objective < most {
+                    best = Some(point);
+                }
             }
         }
         let Some(best) = best else { return Ok(None) };

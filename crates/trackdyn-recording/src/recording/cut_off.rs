@@ -17,8 +17,10 @@ use crate::hold::travelled;
 use crate::sample::{Stream, TrackSample};
 use trackdyn_core::{PerSide, Side, real};
 
-/// Fewest sizes of speeds that tell a step.
-const MIN_SIZES: usize = 4;
+/// Fewest sizes of speeds that tell a step, and how often one has to be read: a few levels that are
+/// commanded are no lattice, and a reading that was mended is on none.
+const MIN_SIZES: usize = 8;
+const MIN_READINGS: usize = 3;
 
 /// Least part of the readings that are multiples of the step, and by how much of it they may be
 /// off: the rest was mended.
@@ -31,8 +33,11 @@ const ROUNDING: f64 = 1e-6;
 /// Smallest half step, as share of the root mean square of the speeds of its side.
 const MIN_HALF: f64 = 0.005;
 
-/// Standard errors by which κ has to be nearer to one than to zero, and not beyond.
-const MIN_ERRORS: f64 = 3.0;
+/// Standard errors by which κ, the mean of both channels, has to be nearer to one than to zero, and
+/// by which each channel may be off. Slip of real robots, which the errors take for chance, reaches
+/// three.
+const MIN_ERRORS: f64 = 4.0;
+const MAX_ERRORS: f64 = 3.0;
 
 /// Between rounded and cut off, and as far beyond.
 const LEAST: f64 = 0.5;
@@ -58,7 +63,7 @@ pub(super) fn mend(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
                 }
             }
             let Some(&t) = at.first() else { continue };
-            let (stream, finding) = (Stream::Tracks, Finding::CutOff { step });
+            let (stream, finding) = (Stream::Tracks, Finding::CutOff { side, step });
             cleanings.push(Cleaning { stream, finding, count: at.len(), runs: 1, run: id, t });
         }
     }
@@ -74,8 +79,9 @@ fn step(speeds: &[f64]) -> Option<f64> {
     let mut sizes: Vec<f64> = speeds.iter().map(|speed| speed.abs()).collect();
     sizes.sort_by(f64::total_cmp);
     let rounding = ROUNDING * sizes.last()?;
-    sizes.dedup_by(|next, before| *next - *before <= rounding);
-    sizes.retain(|size| *size > rounding);
+    let alike = sizes.chunk_by(|before, next| next - before <= rounding);
+    let often = alike.filter(|alike| alike.len() >= MIN_READINGS).map(|alike| alike[0]);
+    let sizes: Vec<f64> = often.filter(|size| *size > rounding).collect();
     if sizes.len() < MIN_SIZES {
         return None;
     }
@@ -117,13 +123,15 @@ fn are_cut_off(runs: &[Run], steps: PerSide<Option<f64>>) -> bool {
     };
     let Some(factors) = linear.factors(runs, &column) else { return false };
     let has_positions = runs.iter().all(Run::has_positions);
-    let [turn, forward] = factors.map(|[cut, error]| {
-        let margin = MIN_ERRORS * error;
-        let is_sure = cut - margin > LEAST && cut - margin < MOST;
-        let may_be = cut + margin > LEAST && cut - margin < MOST;
-        (is_sure, may_be)
-    });
-    if has_positions { forward.0 && turn.1 || turn.0 && forward.1 } else { turn.0 }
+    let channels = if has_positions { &factors[..] } else { &factors[..1] };
+    let weight = |[_, error]: &[f64; 2]| error.powi(-2);
+    let weights: f64 = channels.iter().map(weight).sum();
+    let cut = channels.iter().map(|one| weight(one) * one[0]).sum::<f64>() / weights;
+    let may_be = |[cut, error]: &[f64; 2]| {
+        let margin = MAX_ERRORS * error;
+        cut + margin > LEAST && cut - margin < MOST
+    };
+    cut - MIN_ERRORS * weights.powf(-0.5) > LEAST && cut < MOST && channels.iter().all(may_be)
 }
 
 #[cfg(test)]
@@ -179,7 +187,7 @@ mod tests {
         let (run, found) = mended(|v| STEP * (v / STEP).trunc());
         assert_eq!(found.len(), 2);
         for one in found {
-            let Finding::CutOff { step } = one.finding else { panic!("{one:?}") };
+            let Finding::CutOff { step, .. } = one.finding else { panic!("{one:?}") };
             assert!((step - STEP).abs() < 1e-9, "{step}");
         }
         let truth = drive(|v| v);
@@ -189,6 +197,17 @@ mod tests {
         };
         assert!(off(&run).abs() < 0.05 * STEP, "{}", off(&run));
         assert!(off(&drive(|v| STEP * (v / STEP).trunc())) < -0.4 * STEP);
+    }
+
+    /// A mended reading lies between two steps, and commands of a few levels are no lattice.
+    #[test]
+    fn a_step_is_told_by_what_is_read_often() {
+        let mut speeds: Vec<f64> = (0..40).map(|k| STEP * f64::from(k % 10)).collect();
+        speeds.push(1.5 * STEP);
+        let found = step(&speeds).expect("a step");
+        assert!((found - STEP).abs() < 1e-9, "{found}");
+        let levels: Vec<f64> = (0..40).map(|k| 0.2 * f64::from(k % 5)).collect();
+        assert_eq!(step(&levels), None);
     }
 
     #[test]

@@ -5,9 +5,6 @@ use std::fmt;
 use trackdyn_core::Side;
 use trackdyn_core::lines::counted;
 
-/// Steps that differ by less, as share of them, are one.
-const ROUNDING: f64 = 1e-6;
-
 /// One kind of finding in one series, gathered over the runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cleaning {
@@ -90,9 +87,11 @@ pub enum Finding {
         /// The speed, m/s.
         speed: f64,
     },
-    /// Readings that are cut off to whole steps, towards zero: half a step is added to those that
-    /// are not zero.
+    /// Readings of a side that are cut off to whole steps, towards zero: half a step is added to
+    /// those that are not zero.
     CutOff {
+        /// The side.
+        side: Side,
         /// The step, m/s.
         step: f64,
     },
@@ -119,14 +118,11 @@ impl Finding {
 }
 
 impl Finding {
-    /// Whether another one is gathered with it: of one kind, and of one side or step where it has
-    /// one.
+    /// Whether another one is gathered with it: of one kind, and of one side where it has one.
     fn is_like(&self, other: &Self) -> bool {
         match (self, other) {
-            (Self::Biased { side, .. }, Self::Biased { side: other, .. }) => side == other,
-            (Self::CutOff { step }, Self::CutOff { step: other }) => {
-                (step - other).abs() <= ROUNDING * step
-            }
+            (Self::Biased { side, .. }, Self::Biased { side: other, .. })
+            | (Self::CutOff { side, .. }, Self::CutOff { side: other, .. }) => side == other,
             _ => std::mem::discriminant(self) == std::mem::discriminant(other),
         }
     }
@@ -224,11 +220,12 @@ impl fmt::Display for Cleaning {
                  what the poses show (a bias), which is taken off",
                 side.name()
             )?,
-            Finding::CutOff { step } => write!(
+            Finding::CutOff { side, step } => write!(
                 f,
-                "readings are cut off to multiples of {step:.4} m/s, towards zero, by what the \
-                 poses show (a speed as an integer): half a step is added to those that are not \
-                 zero; odometry that reads them needs the same"
+                "readings of the {} side are cut off to multiples of {step:.4} m/s, towards zero, \
+                 by what the poses show (a speed as an integer): half a step is added to those \
+                 that are not zero; odometry that reads them needs the same",
+                side.name()
             )?,
         }
         write!(f, " ({}, first at t = {t:.3} s of run {run})", counted(*runs, "run"))

@@ -9,7 +9,6 @@ use crate::figure::{
 use crate::text::{Horizontal, Style, TITLE_SIZE, Vertical};
 use crate::ticks::number;
 use trackdyn_core::real;
-use trackdyn_diagnose::locate::Manoeuvre;
 use trackdyn_diagnose::locate::cells::Cell;
 
 const TOP: i32 = sheet::TOP + 110;
@@ -70,12 +69,14 @@ pub(crate) fn drawn([before, after]: &[Vec<Cell>; 2], words: &Words) -> Figure {
     let limit = limit(&[before, after]);
     let panels = (0..3).map(|k| panel(&[before, after], k, limit, words.names));
     figure.panels.extend(panels);
+    // Two sets of recordings have samples of their own.
+    let are_alike = before.iter().zip(after).all(|(cell, other)| cell.samples == other.samples);
+    let width = if are_alike { 104 } else { 150 };
     for (row, (cell, other)) in before.iter().zip(after).enumerate() {
         let at = [-limit, real(row) + 0.5];
-        // Two sets of recordings have samples of their own.
-        let (count, width) = match (cell.samples, other.samples) {
-            (one, two) if one == two => (format!("n = {one}"), 104),
-            (one, two) => (format!("n = {one}/{two}"), 150),
+        let count = match (cell.samples, other.samples) {
+            (one, _) if are_alike => format!("n = {one}"),
+            (one, two) => format!("n = {one}/{two}"),
         };
         figure.panels[0].name(&name(cell), at, width);
         figure.panels[0].labels.push(Label::left_of(&count, at, 14, (18.0, GREY)));
@@ -129,13 +130,8 @@ fn beyond(entry: usize, [value, half]: [f64; 2], row: f64, limit: f64) -> Label 
 }
 
 fn name(cell: &Cell) -> String {
-    let way = match (cell.manoeuvre, cell.forward) {
-        (Manoeuvre::Spin, true) => "to the left",
-        (Manoeuvre::Spin, false) => "to the right",
-        (_, true) => "forward",
-        (_, false) => "backward",
-    };
-    format!("{}, {way}, {} m/s", cell.manoeuvre.name(), number(cell.mean_speed, 2))
+    let Cell { manoeuvre, mean_speed, .. } = cell;
+    format!("{}, {}, {} m/s", manoeuvre.name(), cell.way(), number(*mean_speed, 2))
 }
 
 /// Half the range in mm: all estimates that are worth it, with intervals of usual length.

@@ -202,11 +202,11 @@ mod tests {
     /// A mended reading lies between two steps, and commands of a few levels are no lattice.
     #[test]
     fn a_step_is_told_by_what_is_read_often() {
-        let mut speeds: Vec<f64> = (0..40).map(|k| STEP * f64::from(k % 10)).collect();
+        let mut speeds: Vec<f64> = (0..100).map(|k| STEP * f64::from(k % 10)).collect();
         speeds.push(1.5 * STEP);
         let found = step(&speeds).expect("a step");
         assert!((found - STEP).abs() < 1e-9, "{found}");
-        let levels: Vec<f64> = (0..40).map(|k| 0.2 * f64::from(k % 5)).collect();
+        let levels: Vec<f64> = (0..100).map(|k| 0.2 * f64::from(k % 5)).collect();
         assert_eq!(step(&levels), None);
     }
 

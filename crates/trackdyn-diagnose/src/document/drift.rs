@@ -39,6 +39,13 @@ pub struct ComparedTable {
 }
 
 impl DriftTable {
+    /// Whether the corrected vehicle is surely worse in one of them: what it was learned from and
+    /// how it drives contradict one another.
+    pub fn is_worse(&self) -> bool {
+        let Self { place_m_per_100_m: place, yaw_deg_per_turn: yaw } = self;
+        place.iter().chain(yaw).any(ComparedTable::is_worse)
+    }
+
     /// Whether nothing is known of either.
     pub(crate) fn is_empty(&self) -> bool {
         *self == Self::default()
@@ -54,6 +61,12 @@ impl DriftTable {
 }
 
 impl ComparedTable {
+    /// Whether the interval after lies above that before.
+    pub fn is_worse(&self) -> bool {
+        let both = self.before95.zip(self.after95);
+        both.is_some_and(|([_, before], [after, _])| after > before)
+    }
+
     /// The table of a drift over a way of `over`; pieces are counted in `unit`.
     fn of(compared: Compared, over: f64, unit: f64) -> Self {
         let Compared { before, after, pose_noise, pieces, length } = compared;
@@ -68,5 +81,29 @@ impl ComparedTable {
             pieces,
             piece: rounded(length / unit),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_vehicle_is_worse_where_the_intervals_part() {
+        let table = |after: f64, half: f64| ComparedTable {
+            before: 1.0,
+            before95: Some([0.8, 1.2]),
+            after,
+            after95: Some([after - half, after + half]),
+            pose_noise: 0.1,
+            pieces: 20,
+            piece: 1.0,
+        };
+        let of = |place, yaw| DriftTable { place_m_per_100_m: place, yaw_deg_per_turn: yaw };
+        assert!(of(Some(table(7.0, 2.0)), None).is_worse());
+        assert!(of(Some(table(0.4, 0.1)), Some(table(1.6, 0.2))).is_worse());
+        assert!(!of(Some(table(1.6, 0.5)), Some(table(0.5, 0.1))).is_worse());
+        let unknown = ComparedTable { after95: None, ..table(9.0, 1.0) };
+        assert!(!of(Some(unknown), None).is_worse());
     }
 }

@@ -120,8 +120,11 @@ fn driving(drift: &DriftTable) -> Option<String> {
         place.as_ref().filter(is_corrected).map(|table| of("place lost per 100 m", "m", table));
     let yaw =
         yaw.as_ref().filter(is_corrected).map(|table| of("heading lost per turn", "deg", table));
-    let both: Vec<String> = place.into_iter().chain(yaw).collect();
-    (!both.is_empty()).then(|| both.join("; "))
+    let worse = "the corrected vehicle drives worse than the filed one, against what the fit says: \
+                 do not take it";
+    let worse = drift.is_worse().then(|| worse.to_owned());
+    let all: Vec<String> = place.into_iter().chain(yaw).chain(worse).collect();
+    (!all.is_empty()).then(|| all.join("; "))
 }
 
 /// By how much both coefficients of friction differ from what was supposed.

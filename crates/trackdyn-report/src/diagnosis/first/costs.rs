@@ -91,6 +91,8 @@ fn compared(name: &'static str, unit: &'static str, note: String, of: &ComparedT
             length: share(value, most),
         }
     };
+    let worse = "; worse as corrected, against what the fit says: do not take it";
+    let note = if of.is_worse() { note + worse } else { note };
     // a correction that changes nothing is none
     let count = if of.before == of.after { 1 } else { 2 };
     let noise = Shown { data: of.pose_noise, text: significant(of.pose_noise, 2) };

@@ -32,7 +32,7 @@ use crate::progress::{Cancelled, Stage, Watch};
 use crate::resampling::Resampling;
 use crate::uncertainty::Uncertainty;
 use choice::Choice;
-use shared::Sets;
+use in_common::Sets;
 use std::collections::{BTreeMap, BTreeSet};
 use trackdyn_model::effect::Symmetry;
 use trackdyn_model::{ActiveEffect, EffectId, VehicleFile};
@@ -122,16 +122,16 @@ pub fn compare(
         watch.stage(Stage::Differences, || quantity::groups(both, &choice, &uncertainties))?;
     let groups = level::with_level(groups, both, &choice);
     let moved = moved.as_ref();
-    let judged = difference::judge(both, &choice, groups.clone(), moved, resampling);
     let compared = Sets { sets: both, choice: &choice, groups: &groups, moved };
-    let judged = closer::judge(compared, judged);
+    let judged = difference::judge(compared, resampling);
+    let (judged, shared) = closer::judge(compared, judged);
     let (differences, alike): (Vec<_>, Vec<_>) =
         judged.into_iter().partition(|one| one.refused.is_none());
     watch.stage(Stage::Differences, || ())?;
     let icrs = remainder::icrs(both, &choice);
     let beside = |is_free: &dyn Fn(Subject) -> bool| {
         let free = groups.iter().filter(|group| is_free(group.subject));
-        in_common::joint_beside(both, &choice, &groups, moved, free)
+        in_common::joint_beside(compared, free)
     };
     let is_named = |subject: Subject| differences.iter().any(|one| one.group.subject == subject);
     let is_constants = |subject: Subject| subject == Subject::Constants;
@@ -144,9 +144,9 @@ pub fn compare(
     let before = of(beside(&is_constants), 0.0);
     let beside_named = of(beside_named, of_laws.max(0.0));
     let after = of(remainder::apart(both, &choice), 0.0);
-    let left = in_common::joint(both, &choice, &groups, moved).left();
+    let left = in_common::in_common(compared).joint.left();
     let cells = remainder::cells(both, &icrs, &left);
-    let closer = Closer::of(compared, &differences, file);
+    let closer = Closer::of(compared, &shared, file);
     let not_shown = choice.effects.iter().flat_map(|&effect| {
         let lacking = [0, 1].into_iter();
         let lacking = lacking.filter(|&k| !choice.fits[k].effects.contains(&effect));

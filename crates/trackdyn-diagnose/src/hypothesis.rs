@@ -106,6 +106,12 @@ pub fn typical_size(parameter: &Parameter) -> f64 {
     }
 }
 
+/// Largest distance of a parameter from its neutral value.
+pub fn largest_size(parameter: &Parameter) -> f64 {
+    let [low, high] = parameter.range;
+    (high - neutral(parameter)).max(neutral(parameter) - low)
+}
+
 impl Hypothesis {
     /// The hypothesis of a vehicle file.
     pub fn filed(file: &VehicleFile, settings: &settings::Prior) -> Self {

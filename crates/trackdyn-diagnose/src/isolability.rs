@@ -1,6 +1,6 @@
 //! Detectability and isolability: what this evidence could show, and tell apart.
 
-use crate::hypothesis::{Unknown, neutral};
+use crate::hypothesis::{Unknown, largest_size, neutral};
 use crate::search::{Found, Screened, Search};
 use nalgebra::DMatrix;
 use trackdyn_model::EffectId;
@@ -104,9 +104,9 @@ impl Isolability {
             .filter_map(|&(unknown, per_unit)| {
                 let Unknown::Effect(effect, parameter) = unknown else { return None };
                 let card = &effect.card().parameters[parameter];
-                let most = (card.range[1] - neutral(card)).max(neutral(card) - card.range[0]);
                 let size = self.min_detected_z / per_unit;
-                Some(Detectable { effect, parameter, size: (size <= most).then_some(size) })
+                let is_physical = size <= largest_size(card);
+                Some(Detectable { effect, parameter, size: is_physical.then_some(size) })
             })
             .collect()
     }

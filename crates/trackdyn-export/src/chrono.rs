@@ -2,7 +2,7 @@
 
 use crate::simulator::notes::{self, Expression, digits};
 use crate::simulator::points::{contact_points, icrs, rollers};
-use crate::simulator::{Aspect, Robot, side_name};
+use crate::simulator::{Aspect, Robot};
 use crate::{Provenance, TextFile};
 use std::fmt::Write;
 use trackdyn_core::Side;
@@ -66,7 +66,7 @@ pub fn model(robot: &Robot, provenance: &Provenance) -> TextFile {
       \"Coefficient of Restitution\": {},
       \"Properties\": {{\"Young Modulus\": {}, \"Poisson Ratio\": {}}}
     }}{comma}",
-            side_name(side),
+            side.name(),
             digits(robot.friction[side].along),
             digits(RESTITUTION),
             digits(YOUNG_MODULUS),

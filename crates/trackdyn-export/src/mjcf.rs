@@ -13,7 +13,7 @@
 
 use crate::simulator::notes::{self, Expression, digits, row};
 use crate::simulator::points::{contact_points, icrs, matched, rollers};
-use crate::simulator::{Aspect, Robot, Roller, side_name};
+use crate::simulator::{Aspect, Robot, Roller};
 use crate::{Provenance, TextFile};
 use std::fmt::Write;
 use trackdyn_core::{STANDARD_GRAVITY, real};
@@ -176,7 +176,7 @@ pub fn model(robot: &Robot, provenance: &Provenance) -> TextFile {
 }
 
 fn name(roller: &Roller) -> String {
-    format!("{}_{}", side_name(roller.side), roller.index)
+    format!("{}_{}", roller.side.name(), roller.index)
 }
 
 /// A roller on its spring.

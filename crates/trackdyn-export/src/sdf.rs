@@ -1,7 +1,7 @@
 //! Gazebo's gz-sim: SDF of a model with tracks that drive.
 
 use crate::simulator::notes::{self, Expression, digits, row};
-use crate::simulator::{Aspect, Robot, side_name};
+use crate::simulator::{Aspect, Robot};
 use crate::{Name, Provenance, TextFile, gz};
 use std::fmt::Write;
 use trackdyn_core::{STANDARD_GRAVITY, Side};
@@ -57,10 +57,10 @@ pub fn model(robot: &Robot, provenance: &Provenance) -> TextFile {
             "    <plugin filename=\"gz-sim-track-controller-system\" \
              name=\"gz::sim::systems::TrackController\">\n      \
              <link>{}_track</link>\n    </plugin>",
-            side_name(side)
+            side.name()
         );
     }
-    let link = |side| -> Name { format!("{}_track", side_name(side)).parse().expect("a name") };
+    let link = |side: Side| -> Name { format!("{}_track", side.name()).parse().expect("a name") };
     text += &gz::element(&robot.drive(), &[link(Side::Left)], &[link(Side::Right)], "    ");
     text += "  </model>\n</sdf>\n";
     TextFile { name: "vehicle.sdf", text }
@@ -83,7 +83,7 @@ fn inertial(cog: &[f64; 3], mass: f64, [xx, yy, zz]: &[f64; 3]) -> String {
 
 /// The link of a track, with a box under each patch, and the joint that holds it.
 fn track(robot: &Robot, side: Side, place: &[f64; 3], size: [f64; 3], mass: f64) -> String {
-    let name = format!("{}_track", side_name(side));
+    let name = format!("{}_track", side.name());
     let [_, width, height] = size;
     // I = m (a² + b²)/12 of a box
     let square = size.map(|edge| edge * edge / 12.0);

@@ -15,8 +15,8 @@ pub use aspect::Aspect;
 pub use points::{ContactPoint, Roller};
 
 use crate::{EquivalentDrive, Error};
+use trackdyn_core::PerSide;
 use trackdyn_core::frames::ros_from_paper;
-use trackdyn_core::{PerSide, Side};
 use trackdyn_model::contact::Friction;
 use trackdyn_model::effect::Symmetry;
 use trackdyn_model::{
@@ -199,12 +199,4 @@ fn identifier(name: &str) -> String {
     let word: String =
         name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
     if word.starts_with(|c: char| c.is_ascii_alphabetic()) { word } else { format!("robot_{word}") }
-}
-
-/// The name of a side.
-pub(crate) fn side_name(side: Side) -> &'static str {
-    match side {
-        Side::Left => "left",
-        Side::Right => "right",
-    }
 }

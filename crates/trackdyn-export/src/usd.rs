@@ -6,7 +6,7 @@
 use crate::chrono::isotropic;
 use crate::simulator::notes::{self, Expression, digits};
 use crate::simulator::points::rollers;
-use crate::simulator::{Aspect, Robot, Roller, side_name};
+use crate::simulator::{Aspect, Robot, Roller};
 use crate::{Provenance, TextFile};
 use std::fmt::Write;
 use trackdyn_core::{STANDARD_GRAVITY, Side, real};
@@ -53,7 +53,7 @@ fn balls(robot: &Robot) -> Vec<Ball> {
     let of_roller = |roller: &Roller| {
         let Roller { side, index, place: [x, y], preload, friction } = *roller;
         [("outer", side.sign() * -half), ("inner", side.sign() * half)].map(|(row, offset)| Ball {
-            name: format!("{}_{row}_{index}", side_name(side)),
+            name: format!("{}_{row}_{index}", side.name()),
             side,
             place: [x, y + offset, radius],
             radius,
@@ -113,7 +113,7 @@ def Xform \"{name}\" (
         ground = material("material", 1.0),
     );
     for side in Side::BOTH {
-        text += &material(side_name(side), robot.friction[side].along);
+        text += &material(side.name(), robot.friction[side].along);
     }
     text += &rigid_body("base_link", "Xform", [0.0; 3], mass, cog, inertia, &hull(robot));
     for ball in &balls {
@@ -202,7 +202,7 @@ fn prims(robot: &str, ball: &Ball) -> String {
     let shape = format!(
         "        double radius = {}\n        rel material:binding:physics = </{robot}/{}>\n",
         digits(*radius),
-        side_name(*side)
+        side.name()
     );
     let mut text = rigid_body(&carrier, "Xform", *place, *mass, [0.0; 3], [moment; 3], "");
     text += &rigid_body(name, "Sphere", *place, *mass, [0.0; 3], [moment; 3], &shape);

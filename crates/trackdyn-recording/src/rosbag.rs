@@ -144,7 +144,7 @@ fn with_options(error: Error, taken: &PerSide<Vec<String>>, told: &Told) -> Erro
         names.iter().map(of).collect()
     };
     let option = |side: Side, names: &[String]| {
-        let word = names::word(side);
+        let word = side.name();
         let options = names.iter().map(|name| format!("--{word}-{kind} {name}"));
         options.collect::<Vec<_>>().join(" ")
     };

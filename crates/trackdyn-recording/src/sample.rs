@@ -4,7 +4,7 @@
 //! dropping a row moves the row. Columns that the tool does not know stand beside, one array each.
 
 use std::fmt::Debug;
-use trackdyn_core::{PerSide, Pose};
+use trackdyn_core::{PerSide, Pose, Side};
 
 /// One row of a series: a time stamp and what was measured then.
 pub trait Sample: Copy + Debug + PartialEq {
@@ -63,6 +63,14 @@ impl TrackSample {
     /// The speeds of both tracks, m/s.
     pub fn speeds(&self) -> PerSide<f64> {
         PerSide::new(self.v_left, self.v_right)
+    }
+
+    /// The speed of one track, m/s, to be mended.
+    pub(crate) fn speed_mut(&mut self, side: Side) -> &mut f64 {
+        match side {
+            Side::Left => &mut self.v_left,
+            Side::Right => &mut self.v_right,
+        }
     }
 }
 

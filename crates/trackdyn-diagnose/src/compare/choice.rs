@@ -101,9 +101,7 @@ impl Choice {
             fitted(sets[1], &effects, Some(&own[0]), watch)?,
         ];
         let [[a, b], [c, d]] = [own, again];
-        let is_constant =
-            |effect: &EffectId| sets.iter().any(|set| set.constants.class().contains(effect));
-        let compared = effects.iter().copied().filter(|one| !is_constant(one)).collect();
+        let compared = effects.iter().copied().filter(|one| !is_constant(sets, *one)).collect();
         Ok(Self { effects, compared, fits: [better(a, c), better(b, d)] })
     }
 
@@ -156,6 +154,11 @@ fn is_of_the_world(effect: EffectId) -> bool {
     effect.card().parameters.iter().any(|parameter| of_the_world(parameter.role))
 }
 
+/// Whether constant ICRs may stand for an effect in either set.
+pub(super) fn is_constant(sets: [&Examination; 2], effect: EffectId) -> bool {
+    sets.iter().any(|set| set.constants.class().contains(&effect))
+}
+
 /// Sizes of an effect, as unknowns.
 pub(super) fn sizes(effect: EffectId) -> impl Iterator<Item = Unknown> {
     crate::candidate::sizes(effect).into_iter().map(move |place| Unknown::Effect(effect, place))
@@ -176,7 +179,7 @@ fn filed(sets: [&Examination; 2]) -> BTreeSet<EffectId> {
         let effect = active.effect();
         !effect.card().is_inertia()
             && !is_instrument(&filed.vehicle, active)
-            && sets.iter().all(|set| !set.constants.class().contains(&effect))
+            && !is_constant(sets, effect)
             && sizes(effect).next().is_some()
     };
     filed.effects.iter().filter(is_compared).map(ActiveEffect::effect).collect()

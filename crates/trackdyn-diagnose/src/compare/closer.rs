@@ -1,8 +1,9 @@
 //! What to set in a simulator, and how much closer to the robot it would be.
 
 use super::difference::{Difference, NoDifference};
+use super::in_common::Sets;
 use super::quantity::Subject;
-use super::shared::{Sets, Shared};
+use super::shared::Shared;
 use crate::base::correct_constants;
 use crate::drift::Drift;
 use crate::hypothesis::Hypothesis;
@@ -34,30 +35,33 @@ pub struct Closer {
 }
 
 impl Closer {
-    /// Predicts the runs of the second set.
-    pub(super) fn of(both: Sets, claimed: &[Difference], file: &VehicleFile) -> Self {
+    /// Predicts the runs of the second set by the model in which only what is claimed differs.
+    pub(super) fn of(both: Sets, shared: &Shared, file: &VehicleFile) -> Self {
         let Sets { sets, choice, .. } = both;
-        let own = &choice.fits[1].fit.hypothesis;
-        let subjects: Vec<Subject> = claimed.iter().map(|one| one.group.subject).collect();
-        let Shared { as_first, as_second } = both.model(&subjects);
-        let judging = sets[1].diagnosis.evidence.unseen.as_ref().map(|unseen| &unseen.evidence);
-        let evidence = judging.unwrap_or(&sets[1].search.evidence);
-        let [first, second] = [&as_first, &as_second].map(|model| vehicle(file, model));
-        // a motion in time that fails is taken from that of the fit, of the same runs
-        let fitted = judging.is_none().then_some(&choice.fits[1].fit.mechanics);
-        let errors = [&as_first, &as_second, own];
-        let errors = errors.map(|one| Predicted::by(one, evidence, fitted).error);
+        let own = &choice.fits[1].fit;
+        let predicted = |evidence: &Weighted, fitted: Option<&Mechanics>| {
+            [&shared.as_first, &shared.as_second, &own.hypothesis]
+                .map(|one| Predicted::by(one, evidence, fitted))
+        };
         let seen = &sets[1].search.evidence;
-        let fitted = Some(&choice.fits[1].fit.mechanics);
-        let [shared, alone] = [&as_second, own].map(|one| Predicted::by(one, seen, fitted).loss);
-        let free = real(choice.fits[1].fit.free.len());
+        // a motion in time that fails is taken from that of the fit, of the same runs
+        let of_seen = predicted(seen, Some(&own.mechanics));
+        let [_, alike, apart] = of_seen.each_ref().map(|one| one.loss);
+        let free = real(own.free.len());
         let by_chance = free + CHANCE * (2.0 * free).sqrt();
+        // what cannot be predicted is no evidence
+        let left = if alike.is_finite() { alike - apart - by_chance } else { 0.0 };
+        let unseen = sets[1].diagnosis.evidence.unseen.as_ref().map(|unseen| &unseen.evidence);
+        let of_unseen = unseen.map(|unseen| predicted(unseen, None));
+        let near = unseen.is_none().then_some(&own.mechanics);
+        let [first, second] =
+            [&shared.as_first, &shared.as_second].map(|model| vehicle(file, model));
+        let drift = Drift::of(unseen.unwrap_or(seen), [&first, &second], [near; 2]);
         Self {
-            // what cannot be predicted is no evidence
-            left: if shared.is_finite() { shared - alone - by_chance } else { 0.0 },
-            drift: Drift::of(evidence, [&first, &second], [fitted; 2]),
-            errors,
-            are_held_out: judging.is_some(),
+            drift,
+            errors: of_unseen.unwrap_or(of_seen).map(|one| one.error),
+            are_held_out: unseen.is_some(),
+            left,
             vehicle: second,
         }
     }
@@ -65,44 +69,40 @@ impl Closer {
 
 /// Refuses differences with which the first set's model predicts the second set hardly better:
 /// sizes that hang together may each look different, and explain nothing where one alone is.
+/// Returns the differences, and the model in which those that are claimed differ.
 ///
 /// The runs are those of the fit: there, differences that are right raise the log-likelihood by as
 /// much as the evidence that is asked of a claim.
-pub(super) fn judge(both: Sets, mut judged: Vec<Difference>) -> Vec<Difference> {
+pub(super) fn judge(both: Sets, mut judged: Vec<Difference>) -> (Vec<Difference>, Shared) {
     let evidence = &both.sets[1].search.evidence;
     let needed = evidence.settings().verdict.min_ln_bayes_factor;
     let fitted = Some(&both.choice.fits[1].fit.mechanics);
-    let with = |claimed: &[Subject]| {
-        let Shared { as_first, as_second } = both.model(claimed);
-        [as_first, as_second].map(|model| Predicted::by(&model, evidence, fitted))
-    };
+    let predicted = |model: &Hypothesis| Predicted::by(model, evidence, fitted);
     let mut claimed: Vec<Subject> =
         judged.iter().filter(|one| one.refused.is_none()).map(|one| one.group.subject).collect();
-    let mut refused = Vec::new();
-    while !claimed.is_empty() {
-        let [before, after] = with(&claimed);
+    loop {
+        let shared = both.model(&claimed);
+        if claimed.is_empty() {
+            return (judged, shared);
+        }
+        let [before, after] = [&shared.as_first, &shared.as_second].map(predicted);
         if after.gain_over(&before) >= needed {
-            break;
+            return (judged, shared);
         }
         // the one without which the others predict best
         let others = (0..claimed.len()).map(|place| {
-            let others = claimed.iter().enumerate().filter(|(other, _)| *other != place);
-            let others: Vec<Subject> = others.map(|(_, subject)| *subject).collect();
-            let [_, after] = with(&others);
-            (place, after.loss)
+            let mut others = claimed.clone();
+            others.remove(place);
+            (place, predicted(&both.model(&others).as_second).loss)
         });
         let least = others.min_by(|a, b| a.1.total_cmp(&b.1));
         let (place, _) = least.expect("a claim");
+        let subject = claimed.remove(place);
         let why = NoDifference::NotCloser { without: before.error, with: after.error };
-        refused.push((claimed.remove(place), why));
-    }
-    for one in &mut judged {
-        let own = refused.iter().find(|(subject, _)| *subject == one.group.subject);
-        if let Some((_, why)) = own {
+        for one in judged.iter_mut().filter(|one| one.group.subject == subject) {
             one.refused = Some(why.clone());
         }
     }
-    judged
 }
 
 /// A vehicle file with all of a hypothesis: effects, and friction and centre of gravity that have

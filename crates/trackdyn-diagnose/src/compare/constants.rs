@@ -5,7 +5,7 @@ use super::quantity::{Estimate, Group, HALF, middle_half_y};
 use crate::base::spin_with;
 use crate::candidate::sizes;
 use crate::diagnosis::Examination;
-use crate::hypothesis::{active, neutral, typical_size};
+use crate::hypothesis::{active, largest_size, neutral, typical_size};
 use nalgebra::{DMatrix, DVector, Vector3};
 use trackdyn_core::real;
 use trackdyn_model::{EffectId, Effects, Vehicle};
@@ -20,19 +20,22 @@ pub struct Member {
     pub sizes: Vec<(usize, Estimate)>,
 }
 
+/// Effects that constant ICRs may stand for in both sets, ascending.
+fn class(sets: [&Examination; 2]) -> impl Iterator<Item = EffectId> {
+    let [first, second] = sets.map(|set| set.constants.class());
+    first.iter().copied().filter(|effect| second.contains(effect))
+}
+
 /// Effects of the class of constants that explain the difference of constant ICRs alone. All of the
 /// class, without sizes, where none does: then it takes several.
 pub(super) fn members(sets: [&Examination; 2], group: &Group) -> Vec<Member> {
-    let [first, second] = sets.map(|set| set.constants.class());
-    let both = first.iter().copied().filter(|effect| second.contains(effect));
-    let class: Vec<EffectId> = both.collect();
     let vehicle = &sets[0].search.base.as_filed.hypothesis.vehicle;
     let moved = Vector3::from_fn(|n, _| group.numbers[n].difference.value);
     let deviation = deviation(sets, group);
     let alone: Vec<Member> =
-        class.iter().filter_map(|&effect| member(vehicle, effect, moved, deviation)).collect();
+        class(sets).filter_map(|effect| member(vehicle, effect, moved, deviation)).collect();
     if alone.is_empty() {
-        return class.into_iter().map(|effect| Member { effect, sizes: Vec::new() }).collect();
+        return class(sets).map(|effect| Member { effect, sizes: Vec::new() }).collect();
     }
     alone
 }
@@ -52,17 +55,15 @@ pub(super) fn smallest(sets: [&Examination; 2], group: &Group) -> Vec<Smallest> 
     let search = &sets[0].search;
     let (vehicle, deviation) = (&search.base.as_filed.hypothesis.vehicle, deviation(sets, group));
     let least = search.settings().limits.min_detected_z;
-    let both = sets[0].constants.class().iter();
-    let both = both.filter(|effect| sets[1].constants.class().contains(effect));
     let of_size = |effect: EffectId, parameter: usize| {
         let card = &effect.card().parameters[parameter];
         let none: Vec<f64> = effect.card().parameters.iter().map(neutral).collect();
         let by = icr_slope(vehicle, effect, &none, parameter)?.component_div(&deviation).norm();
-        let most = (card.range[1] - neutral(card)).max(neutral(card) - card.range[0]);
-        let size = Some(least / by).filter(|size| *size <= most);
+        let size = Some(least / by).filter(|size| *size <= largest_size(card));
         Some(Smallest { effect, parameter, size })
     };
-    both.flat_map(|&effect| sizes(effect).into_iter().filter_map(move |size| of_size(effect, size)))
+    class(sets)
+        .flat_map(|effect| sizes(effect).into_iter().filter_map(move |size| of_size(effect, size)))
         .collect()
 }
 

@@ -1,10 +1,10 @@
 //! Verdicts on differences: the rules of a claim, asked of what one set has more than the other.
 
 use super::bayes::Alternatives;
-use super::choice::{Choice, Claimed, claimed};
+use super::choice::{Claimed, claimed};
 use super::constants::{Member, members};
-use super::in_common::{Fits, joint, more};
-use super::quantity::{Estimate, Gradients, Group, Quantity, Subject};
+use super::in_common::{Sets, in_common, more};
+use super::quantity::{Estimate, Group, Quantity, Subject};
 use crate::diagnosis::Examination;
 use crate::normal::Normal;
 use crate::resampling::Resampling;
@@ -89,16 +89,10 @@ pub struct Difference {
 }
 
 /// Judges all groups: as one family, each beside the differences of all others.
-pub(super) fn judge(
-    sets: [&Examination; 2],
-    choice: &Choice,
-    groups: Vec<Group>,
-    moved: Option<&[Gradients; 2]>,
-    resampling: Resampling,
-) -> Vec<Difference> {
-    let joint = joint(sets, choice, &groups, moved);
-    let fits = Fits { fits: [&choice.fits[0].fit, &choice.fits[1].fit], moved };
-    let equations = joint.equations(more(&joint, fits, &groups));
+pub(super) fn judge(both: Sets, resampling: Resampling) -> Vec<Difference> {
+    let Sets { sets, choice, groups, .. } = both;
+    let joint = in_common(both).joint;
+    let equations = joint.equations(more(&joint, both));
     let all: Vec<usize> = equations.groups.concat();
     let whole = equations.fit_with(&all);
     let settings = sets[0].search.settings();
@@ -123,7 +117,7 @@ pub(super) fn judge(
         .map(|(set, fit)| (set.search.base.fit.objective - fit.fit.objective).max(0.0))
         .sum();
     let claims = sets.map(claimed);
-    let judged = groups.into_iter().zip(&equations.groups).zip(beside).zip(tests);
+    let judged = groups.iter().cloned().zip(&equations.groups).zip(beside).zip(tests);
     judged
         .map(|(((group, own), (others, normal)), test)| {
             let alternatives = alternatives(&group);

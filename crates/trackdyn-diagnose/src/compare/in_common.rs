@@ -1,6 +1,6 @@
 //! Both sets in one set of normal equations, with what they have in common.
 
-use super::choice::{Choice, sizes};
+use super::choice::{Choice, is_constant, sizes};
 use super::joint::Joint;
 use super::quantity::{Gradients, Group, Number, Quantity};
 use crate::base::OFFSETS;
@@ -11,6 +11,32 @@ use crate::hypothesis::Unknown;
 use crate::mechanics::is_instrument;
 use crate::normal::Prior;
 use crate::prior::{prior, priors};
+
+/// Two sets with the numbers that are compared.
+#[derive(Clone, Copy)]
+pub(super) struct Sets<'a> {
+    /// The sets.
+    pub sets: [&'a Examination; 2],
+    /// The effects that either has, with the fit of each set.
+    pub choice: &'a Choice,
+    /// What is compared.
+    pub groups: &'a [Group],
+    /// By how much the unknowns of each fit move its constant ICRs.
+    pub moved: Option<&'a [Gradients; 2]>,
+}
+
+impl<'a> Sets<'a> {
+    /// Both fits.
+    pub fn fits(&self) -> Fits<'a> {
+        let [first, second] = &self.choice.fits;
+        Fits { fits: [&first.fit, &second.fit], moved: self.moved }
+    }
+
+    /// All compared numbers.
+    pub fn numbers(&self) -> impl Iterator<Item = &'a Quantity> + use<'a> {
+        self.groups.iter().flat_map(|group| &group.numbers)
+    }
+}
 
 /// Both fits in terms of their constant ICRs.
 #[derive(Clone, Copy)]
@@ -125,7 +151,7 @@ fn as_constants(sets: [&Examination; 2], choice: &Choice) -> Vec<Unknown> {
     let [first, second] = [0, 1].map(|k| &choice.fits[k].fit);
     let is_one = |unknown: &&Unknown| match **unknown {
         Unknown::Effect(effect, _) => {
-            let acts = sets.iter().any(|set| set.constants.class().contains(&effect));
+            let acts = is_constant(sets, effect);
             let is_own = first
                 .hypothesis
                 .effect(effect)
@@ -139,14 +165,10 @@ fn as_constants(sets: [&Examination; 2], choice: &Choice) -> Vec<Unknown> {
 }
 
 /// Both sets with all groups in common.
-pub(super) fn in_common<'a>(
-    sets: [&'a Examination; 2],
-    choice: &'a Choice,
-    groups: &[Group],
-    moved: Option<&[Gradients; 2]>,
-) -> InCommon<'a> {
-    let fits = [&choice.fits[0].fit, &choice.fits[1].fit];
-    let in_icrs = Fits { fits, moved };
+pub(super) fn in_common(both: Sets) -> InCommon {
+    let Sets { sets, choice, groups, .. } = both;
+    let in_icrs = both.fits();
+    let fits = in_icrs.fits;
     let evidence = sets.map(|set| &set.search.evidence);
     let mut joint = Joint::new(evidence, fits.map(|fit| &fit.residual[..]));
     let (mut own, mut constants) = (Vec::new(), Vec::new());
@@ -160,8 +182,7 @@ pub(super) fn in_common<'a>(
             }
         }
         // other sizes, or other ICRs, must not pass for another form
-        let numbers = groups.iter().flat_map(|group| &group.numbers);
-        let compared = numbers.filter_map(|of| in_icrs.of(k, of.number));
+        let compared = both.numbers().filter_map(|of| in_icrs.of(k, of.number));
         let compared = compared.fold(Vec::new(), |mut before: Vec<Column>, column| {
             before.push(before.iter().fold(column, at_right_angles));
             before
@@ -198,48 +219,41 @@ pub(super) fn in_common<'a>(
         joint.add_back(1, &second, factors[1]);
         Some(joint.free_in_both([&first, &second], prior_of_difference(quantity)))
     };
-    let shared = groups.iter().flat_map(|group| &group.numbers).map(&mut share).collect();
+    let shared = both.numbers().map(&mut share).collect();
     InCommon { joint, own, constants, shared }
 }
 
-/// Both sets with all groups in common; differences are columns to be added.
-pub(super) fn joint<'a>(
-    sets: [&'a Examination; 2],
-    choice: &'a Choice,
-    groups: &[Group],
-    moved: Option<&[Gradients; 2]>,
-) -> Joint<'a> {
-    in_common(sets, choice, groups, moved).joint
-}
-
-/// Columns of what the second set has more, a group each.
-pub(super) fn more(joint: &Joint, fits: Fits, groups: &[Group]) -> Vec<Vec<(Column, Prior)>> {
-    let of = |quantity: &Quantity| {
-        let column = joint.alone(1, &fits.of(1, quantity.number)?);
-        Some((column, prior_of_difference(quantity)))
-    };
-    groups.iter().map(|group| group.numbers.iter().filter_map(of).collect()).collect()
-}
-
-/// Two independent numbers with this prior differ by √2 of its deviation.
-pub(super) fn prior_of_difference(quantity: &Quantity) -> Prior {
-    Prior::normal(0.0, 2.0_f64.sqrt() * quantity.prior.deviation)
+impl InCommon<'_> {
+    /// Frees a number of the second set from that of the first; the index of its column, none where
+    /// the fit has none.
+    pub fn free(&mut self, fits: Fits, quantity: &Quantity) -> Option<usize> {
+        let column = fits.of(1, quantity.number)?;
+        Some(self.joint.free_in(1, &column, prior_of_difference(quantity)))
+    }
 }
 
 /// Both sets with all groups in common but some of them, which are free in each.
 pub(super) fn joint_beside<'a, 'b>(
-    sets: [&'a Examination; 2],
-    choice: &'a Choice,
-    groups: &[Group],
-    moved: Option<&[Gradients; 2]>,
+    both: Sets<'a>,
     free: impl Iterator<Item = &'b Group>,
 ) -> Joint<'a> {
-    let mut joint = joint(sets, choice, groups, moved);
-    let fits = Fits { fits: [&choice.fits[0].fit, &choice.fits[1].fit], moved };
+    let mut common = in_common(both);
     for quantity in free.flat_map(|group| &group.numbers) {
-        if let Some(column) = fits.of(1, quantity.number) {
-            joint.free_in(1, &column, prior_of_difference(quantity));
-        }
+        common.free(both.fits(), quantity);
     }
-    joint
+    common.joint
+}
+
+/// Columns of what the second set has more, a group each.
+pub(super) fn more(joint: &Joint, both: Sets) -> Vec<Vec<(Column, Prior)>> {
+    let of = |quantity: &Quantity| {
+        let column = joint.alone(1, &both.fits().of(1, quantity.number)?);
+        Some((column, prior_of_difference(quantity)))
+    };
+    both.groups.iter().map(|group| group.numbers.iter().filter_map(of).collect()).collect()
+}
+
+/// Two independent numbers with this prior differ by √2 of its deviation.
+fn prior_of_difference(quantity: &Quantity) -> Prior {
+    Prior::normal(0.0, 2.0_f64.sqrt() * quantity.prior.deviation)
 }

@@ -1,6 +1,6 @@
 //! Numbers that both sets have, with an estimate in each.
 
-use super::choice::{Choice, sizes};
+use super::choice::{Choice, is_constant, sizes};
 use crate::base::spin_with;
 use crate::diagnosis::Examination;
 use crate::hypothesis::{Hypothesis, Unknown, neutral, typical_size};
@@ -318,10 +318,9 @@ fn constants(
 /// they are free, they and the offsets are known together alone.
 fn beside(sets: [&Examination; 2], choice: &Choice, hypothesis: &Hypothesis) -> Vec<EffectId> {
     let is_one = |effect: &EffectId| {
-        let acts = sets.iter().any(|set| {
-            set.constants.mostly.contains(effect) || set.constants.class().contains(effect)
-        });
-        !choice.compared.contains(effect) && (choice.effects.contains(effect) || acts)
+        let mostly = sets.iter().any(|set| set.constants.mostly.contains(effect));
+        let acts = mostly || is_constant(sets, *effect) || choice.effects.contains(effect);
+        acts && !choice.compared.contains(effect)
     };
     hypothesis.effects.iter().map(ActiveEffect::effect).filter(is_one).collect()
 }

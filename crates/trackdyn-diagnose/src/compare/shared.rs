@@ -4,25 +4,10 @@
 //! estimates taken, an error of one that hangs together with a claimed number would pass for a
 //! prediction that the claim makes worse.
 
-use super::choice::Choice;
-use super::in_common::{Fits, InCommon, in_common, prior_of_difference};
-use super::quantity::{Gradients, Group, Number, Quantity, Subject};
-use crate::diagnosis::Examination;
+use super::in_common::{InCommon, Sets, in_common};
+use super::quantity::{Group, Number, Quantity, Subject};
 use crate::fit::{Fit, at_bound};
 use crate::hypothesis::{Hypothesis, Unknown};
-
-/// Two sets with the numbers that are compared.
-#[derive(Clone, Copy)]
-pub(super) struct Sets<'a> {
-    /// The sets.
-    pub sets: [&'a Examination; 2],
-    /// The effects that either has, with the fit of each set.
-    pub choice: &'a Choice,
-    /// What is compared.
-    pub groups: &'a [Group],
-    /// By how much the unknowns of each fit move its constant ICRs.
-    pub moved: Option<&'a [Gradients; 2]>,
-}
 
 /// The second set's model, where its numbers but these are those of both sets.
 pub(super) struct Shared {
@@ -39,21 +24,22 @@ impl Sets<'_> {
     /// The normal equations of both sets, with a second factor for each claimed number in the
     /// second set; the model is moved by their solution.
     pub fn model(&self, claimed: &[Subject]) -> Shared {
-        let Self { sets, choice, groups, moved } = *self;
-        let fits = Fits { fits: [&choice.fits[0].fit, &choice.fits[1].fit], moved };
-        let InCommon { mut joint, own, constants, shared } = in_common(sets, choice, groups, moved);
+        let fits = self.fits();
+        let mut common = in_common(*self);
         let is_claimed = |group: &Group| claimed.contains(&group.subject);
+        let groups = self.groups.iter();
         let numbers: Vec<(&Quantity, bool)> = groups
-            .iter()
-            .flat_map(|group| group.numbers.iter().map(|one| (one, is_claimed(group))))
+            .flat_map(|group| group.numbers.iter().map(move |one| (one, is_claimed(group))))
             .collect();
         let more: Vec<Option<usize>> = numbers
             .iter()
-            .map(|(quantity, is_claimed)| {
-                let column = fits.of(1, quantity.number).filter(|_| *is_claimed)?;
-                Some(joint.free_in(1, &column, prior_of_difference(quantity)))
-            })
+            .map(
+                |(quantity, is_claimed)| {
+                    if *is_claimed { common.free(fits, quantity) } else { None }
+                },
+            )
             .collect();
+        let InCommon { joint, own, constants, shared } = common;
         let fit = fits.fits[1];
         // An unknown at a bound that its step would cross is held there.
         let crosses = |column: usize, by: f64| {
@@ -65,7 +51,7 @@ impl Sets<'_> {
         let factors = joint.factors(crosses);
         let factor = |column: Option<usize>| column.map_or(0.0, |column| factors[column]);
         let mut second = Moved::new(&fit.hypothesis);
-        let gradient = |place: usize| moved.map_or([0.0; 3], |moved| moved[1][place]);
+        let gradient = |place: usize| self.moved.map_or([0.0; 3], |moved| moved[1][place]);
         for &(_, place, column) in own.iter().filter(|(set, ..)| *set == 1) {
             second.by(fit.unknowns[place], factors[column], gradient(place));
         }

@@ -5,13 +5,13 @@
 //! levels of that one ratio over two decades, with the clock of the present fit and with none.
 //!
 //! The same accelerations move load to a side, by the height of the mass. A wrong height passes for
-//! strengths of inertia that differ, so the height is tried beside strengths that are one.
+//! strengths of inertia that differ, so the height is tried beside strengths that are one number.
 
 use super::done::{Key, Step};
 use super::{Found, Search};
 use crate::base::without_clock;
 use crate::fit::{Fit, Point};
-use crate::hypothesis::{Hypothesis, at_share};
+use crate::hypothesis::{Hypothesis, Unknown, at_share};
 use crate::progress::{Cancelled, Watch};
 use trackdyn_model::EffectId;
 
@@ -36,34 +36,15 @@ impl Search {
         let mut clocks =
             vec![hypothesis.clone(), without_clock(hypothesis, &self.base.as_filed.hypothesis)];
         clocks.dedup();
-        let levels = &self.settings().search.newton_levels;
-        let mut best: Option<Point> = None;
-        for &level in levels {
-            let mut before = beside.fit.mechanics.clone();
-            for clock in &clocks {
-                watch.go_on()?;
-                let start = at(clock, &inertial, level);
-                let point = Point::new(start, &unknowns, &self.evidence, Some(&before));
-                // A clock of the poses moves nothing.
-                before = point.mechanics().clone();
-                let most = best.as_ref().map_or(f64::INFINITY, |best| best.objective);
-                if point.objective < most {
-                    best = Some(point);
-                }
-            }
-        }
-        let Some(best) = best else { return Ok(None) };
-        watch.go_on()?;
-        let fit = Fit::from_point(best, &unknowns, &self.evidence);
-        let found = self.recalibrated(effects, fit);
-        self.done.keep(Key::step(beside, Step::Newton), &found);
-        Ok(Some(found))
+        let levels = self.settings().search.newton_levels.iter();
+        let starts =
+            levels.map(|&level| clocks.iter().map(|clock| at(clock, &inertial, level)).collect());
+        self.refitted_from(starts, beside, effects, &unknowns, watch)
     }
 
     /// A hypothesis with inertia, with what inertia does to the load beside it: refitted from the
     /// best of the levels, with one level for all effects of inertia, at a typical height and at
-    /// that of the vehicle file. None
-    /// where it has that already, or no motion exists at any level.
+    /// that of the vehicle file. None where it has that already, or no motion exists at any level.
     ///
     /// # Errors
     /// [`Cancelled`], by the observer of the watch.
@@ -88,13 +69,31 @@ impl Search {
         if load.iter().any(|&effect| here.effect(effect).is_some()) {
             heights.push(here.clone());
         }
+        let levels = self.settings().search.newton_levels.iter();
+        let starts = levels
+            .flat_map(|&level| heights.iter().map(move |high| (high, level)))
+            .map(|(high, level)| vec![at(high, &inertial, level)]);
+        self.refitted_from(starts, newton, effects, &unknowns, watch)
+    }
+
+    /// A hypothesis with more effects than `beside`, refitted from the best of its starts; none
+    /// where no motion exists at any. Starts that differ by their clock alone stand together.
+    fn refitted_from(
+        &self,
+        starts: impl Iterator<Item = Vec<Hypothesis>>,
+        beside: &Found,
+        effects: Vec<EffectId>,
+        unknowns: &[Unknown],
+        watch: &Watch,
+    ) -> Result<Option<Found>, Cancelled> {
         let mut best: Option<Point> = None;
-        for &level in &self.settings().search.newton_levels {
-            for high in &heights {
+        for together in starts {
+            let mut before = beside.fit.mechanics.clone();
+            for start in together {
                 watch.go_on()?;
-                let before = Some(&newton.fit.mechanics);
-                let start = at(high, &inertial, level);
-                let point = Point::new(start, &unknowns, &self.evidence, before);
+                let point = Point::new(start, unknowns, &self.evidence, Some(&before));
+                // A clock of the poses moves nothing.
+                before = point.mechanics().clone();
                 let most = best.as_ref().map_or(f64::INFINITY, |best| best.objective);
                 if point.objective < most {
                     best = Some(point);
@@ -103,9 +102,9 @@ impl Search {
         }
         let Some(best) = best else { return Ok(None) };
         watch.go_on()?;
-        let fit = Fit::from_point(best, &unknowns, &self.evidence);
+        let fit = Fit::from_point(best, unknowns, &self.evidence);
         let found = self.recalibrated(effects, fit);
-        self.done.keep(Key::step(newton, Step::Newton), &found);
+        self.done.keep(Key::step(beside, Step::Newton), &found);
         Ok(Some(found))
     }
 }

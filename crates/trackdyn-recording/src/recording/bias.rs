@@ -50,10 +50,7 @@ pub(super) fn take_off(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
         for run in runs.iter_mut() {
             let (id, t) = (run.id(), run.tracks().first().map_or(0.0, |reading| reading.t));
             for reading in run.readings_mut() {
-                match side {
-                    Side::Left => reading.v_left -= speed,
-                    Side::Right => reading.v_right -= speed,
-                }
+                *reading.speed_mut(side) -= speed;
             }
             let (stream, finding) = (Stream::Tracks, Finding::Biased { side, speed });
             let count = run.tracks().len();
@@ -63,7 +60,7 @@ pub(super) fn take_off(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
 }
 
 /// Speeds of a side, m/s.
-fn speeds(runs: &[Run], side: Side) -> impl Iterator<Item = f64> + '_ {
+pub(super) fn speeds(runs: &[Run], side: Side) -> impl Iterator<Item = f64> + '_ {
     runs.iter().flat_map(Run::tracks).map(move |reading| reading.speeds()[side])
 }
 

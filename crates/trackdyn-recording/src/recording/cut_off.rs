@@ -10,6 +10,7 @@
 //! added to all readings that are not zero.
 
 use super::Run;
+use super::bias::speeds;
 use super::finding::{Cleaning, Finding};
 use super::linear::{Linear, MIN_PIECE};
 use super::motion::Piece;
@@ -45,7 +46,8 @@ const MOST: f64 = 1.5;
 
 /// Adds half a step to speeds that are cut off; `cleanings` takes what was found.
 pub(super) fn mend(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
-    let steps = PerSide::from_fn(|side: Side| step(&speeds(runs, side)));
+    let of = |side: Side| step(&speeds(runs, side).collect::<Vec<_>>());
+    let steps = PerSide::from_fn(of);
     if (steps.left.is_none() && steps.right.is_none()) || !are_cut_off(runs, steps) {
         return;
     }
@@ -53,12 +55,9 @@ pub(super) fn mend(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
         for run in runs.iter_mut() {
             let (id, mut at) = (run.id(), Vec::new());
             for reading in run.readings_mut() {
-                let speed = match side {
-                    Side::Left => &mut reading.v_left,
-                    Side::Right => &mut reading.v_right,
-                };
-                if *speed != 0.0 {
-                    *speed += 0.5 * step * speed.signum();
+                let missing = missing(reading.speeds()[side], step);
+                if missing != 0.0 {
+                    *reading.speed_mut(side) += missing;
                     at.push(reading.t);
                 }
             }
@@ -69,9 +68,9 @@ pub(super) fn mend(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
     }
 }
 
-/// Speeds of a side, m/s.
-fn speeds(runs: &[Run], side: Side) -> Vec<f64> {
-    runs.iter().flat_map(Run::tracks).map(|reading| reading.speeds()[side]).collect()
+/// q/2 sgn V: what a speed that is cut off to a step lacks on average, m/s.
+fn missing(speed: f64, step: f64) -> f64 {
+    if speed == 0.0 { 0.0 } else { 0.5 * step * speed.signum() }
 }
 
 /// The step whose multiples the speeds are; none where there is none, or it is small.
@@ -107,12 +106,8 @@ fn step(speeds: &[f64]) -> Option<f64> {
 /// Whether the poses tell that speeds of these steps are cut off and not rounded.
 fn are_cut_off(runs: &[Run], steps: PerSide<Option<f64>>) -> bool {
     let Some(linear) = Linear::of(runs, MIN_PIECE, &|_, _, _| false) else { return false };
-    // q/2 sgn V
     let missing = |reading: &TrackSample| {
-        let of = |side: Side| {
-            let (speed, step) = (reading.speeds()[side], steps[side].unwrap_or(0.0));
-            if speed == 0.0 { 0.0 } else { 0.5 * step * speed.signum() }
-        };
+        let of = |side: Side| missing(reading.speeds()[side], steps[side].unwrap_or(0.0));
         TrackSample { t: reading.t, v_left: of(Side::Left), v_right: of(Side::Right) }
     };
     let missing: Vec<Vec<TrackSample>> =

@@ -98,14 +98,6 @@ const CARRIER: [&str; 18] = [
     "bumper",
 ];
 
-/// The name of a side.
-pub(super) fn word(side: Side) -> &'static str {
-    match side {
-        Side::Left => "left",
-        Side::Right => "right",
-    }
-}
-
 /// The side that a joint is on by its name; none where the name gives none, or both.
 pub(super) fn side(name: &str) -> Option<Side> {
     let words = words(name);
@@ -114,7 +106,7 @@ pub(super) fn side(name: &str) -> Option<Side> {
             [Side::Left, Side::Right].map(|side| words.iter().any(|word| is(word, side)));
         (left != right).then_some(if left { Side::Left } else { Side::Right })
     };
-    let full = |word: &str, side: Side| word == self::word(side);
+    let full = |word: &str, side: Side| word == side.name();
     let of_axle = |word: &str, side: Side| match side {
         Side::Left => LEFT.contains(&word),
         Side::Right => RIGHT.contains(&word),

@@ -4,7 +4,6 @@ use super::alike::{Likeness, edges, likeness, means, ratio, ratio_all_along, spe
 use super::joint::{Joint, listed};
 use super::signal::Signal;
 use crate::recording::Warning;
-use crate::rosbag::names::word;
 use std::collections::BTreeMap;
 use trackdyn_core::Side;
 
@@ -31,7 +30,7 @@ pub(super) fn keep_alike(
         let idle = joints.iter().zip(&moves).filter(|(joint, moves)| !stays(joint, **moves));
         let idle = listed(idle.map(|(joint, _)| joint));
         if !idle.is_empty() {
-            let (word, what) = (word(side), "joints");
+            let (word, what) = (side.name(), "joints");
             let taken = format!("all {word} ones but {idle}, which never move");
             warnings.push(Warning::Chosen { what, taken });
         }
@@ -83,7 +82,7 @@ fn faster_by([first, second]: [&str; 2], ratio: f64) -> String {
 fn told_faster(side: Side, names: &[&str], other: usize, ratio: f64) -> Warning {
     let what = if side == Side::Left { "left joints" } else { "right joints" };
     let told = faster_by([names[0], names[other]], ratio);
-    let (names, word) = (names.join(", "), word(side));
+    let (names, word) = (names.join(", "), side.name());
     let taken = format!("the mean of {names}, but {told}; --{word}-joint takes one of them");
     Warning::Chosen { what, taken }
 }
@@ -97,8 +96,8 @@ fn one_of_both(joints: &[Joint], side: Side, pair: [&str; 2], ratio: f64) -> Str
         let place = own.iter().position(|one| *one == name);
         // Joints of an axle stand at the same place, where there are as many on the other side.
         let beside = place.and_then(|at| others.get(at)).filter(|_| own.len() == others.len());
-        let named = format!("--{}-joint {name}", word(side));
-        let beside = beside.map(|beside| format!("--{}-joint {beside}", word(side.other())));
+        let named = format!("--{}-joint {name}", side.name());
+        let beside = beside.map(|beside| format!("--{}-joint {beside}", side.other().name()));
         match (side, beside) {
             (_, None) => named,
             (Side::Left, Some(beside)) => format!("{named} {beside}"),
@@ -149,7 +148,7 @@ fn refusal(joints: &[Joint], side: Side, means: &[Vec<f64>]) -> Option<String> {
     let of_side = joints.iter().filter(|joint| joint.side == side);
     let names: Vec<&str> = of_side.map(|joint| joint.name.as_str()).collect();
     let how: Vec<Likeness> = means.iter().map(|motion| likeness(&means[0], motion)).collect();
-    let word = word(side);
+    let word = side.name();
     if let Some(apart) = how.iter().position(|how| *how == Likeness::Apart) {
         let told = apart_from(names[0], names[apart], &means[0], &means[apart]);
         return Some(match robots(joints, side, means) {
@@ -212,7 +211,7 @@ fn robots(joints: &[Joint], side: Side, means: &[Vec<f64>]) -> Option<String> {
         return None;
     }
     let options = robots.iter().map(|(name, own)| {
-        let option = |joint: &&Joint| format!("--{}-joint {}", word(joint.side), joint.name);
+        let option = |joint: &&Joint| format!("--{}-joint {}", joint.side.name(), joint.name);
         let options: Vec<String> = own.iter().map(option).collect();
         format!("{} are those of {name}", options.join(" "))
     });

@@ -10,7 +10,7 @@
 
 use crate::recording::Warning;
 use crate::rosbag::joints::{Column, Source};
-use crate::rosbag::names::{Part, word};
+use crate::rosbag::names::Part;
 use std::collections::BTreeSet;
 use trackdyn_core::robust::median;
 
@@ -90,11 +90,13 @@ pub(super) fn drop_idle(sources: &mut Vec<Source>, warnings: &mut Vec<Warning>) 
         .iter()
         .zip(&moves)
         .filter(|(_, moves)| **moves)
-        .flat_map(|(source, _)| source.columns.iter().map(|one| (word(one.side), one.name.clone())))
+        .flat_map(|(source, _)| {
+            source.columns.iter().map(|one| (one.side.name(), one.name.clone()))
+        })
         .collect();
     let is_idle = |source: &Source, moves: bool| {
         let mut columns = source.columns.iter().filter(|column| column.part != Part::Other);
-        !moves && columns.any(|column| moving.contains(&(word(column.side), column.name.clone())))
+        !moves && columns.any(|column| moving.contains(&(column.side.name(), column.name.clone())))
     };
     let mut idle = sources.iter().zip(&moves).map(|(source, moves)| is_idle(source, *moves));
     let idle: Vec<bool> = idle.by_ref().collect();

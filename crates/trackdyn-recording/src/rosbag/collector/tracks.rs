@@ -9,7 +9,7 @@ use super::publishers::{drop_idle, drop_repeated, without_zeros};
 use super::signal::{self, Signal};
 use crate::recording::Warning;
 use crate::rosbag::joints::{Column, Source};
-use crate::rosbag::names::{Part, word};
+use crate::rosbag::names::Part;
 use crate::rosbag::options::RosbagOptions;
 use std::collections::BTreeSet;
 use trackdyn_core::{PerSide, Side};
@@ -100,7 +100,7 @@ fn absent(sources: &[Source], options: &RosbagOptions, topics: &[String]) -> Opt
             Side::Left => &options.left_joints,
             Side::Right => &options.right_joints,
         };
-        let word = word(side);
+        let word = side.name();
         if named.is_empty() {
             let has = |column: &Column| column.side == side && column.part != Part::Other;
             let has = of_topics().flat_map(|source| &source.columns).any(has);

@@ -103,9 +103,9 @@ pub struct RecordingOptions {
     /// and a `-` before a sign that is wrong, such as
     /// t=Time:ms,v_l=left:rpm,v_r=-right:rpm,x=px:mm,y=py:mm,yaw=heading:deg. Units: s, ms, us, ns,
     /// min, h, d; those of --speed-unit; m, cm, mm, km, ft; rad, deg, compass (clockwise from
-    /// north, x east); rad/s, deg/s. qx, qy, qz, qw may stand for yaw, and yaw may stand without x
-    /// and y; gyro_z is the yaw rate of a gyroscope, beside poses or in their place; run parts the
-    /// table into runs
+    /// north, x east); rad/s, deg/s. t_ns adds nanoseconds to t; lat and lon (degrees) may stand
+    /// for x and y, and qx, qy, qz, qw for yaw, which may stand without x and y; gyro_z is the yaw
+    /// rate of a gyroscope, beside poses or in their place; run parts the table into runs
     #[arg(long, value_name = "KEY=COLUMN,...")]
     columns: Option<Columns>,
     /// Bag: topic of the joint states

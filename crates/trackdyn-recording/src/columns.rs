@@ -5,7 +5,8 @@
 //! `t=Time:ms,v_l=left_rpm:rpm,v_r=-right_rpm:rpm,x=pos_x,y=pos_y,yaw=heading:deg`. A unit may
 //! follow the name after a colon, and a `-` before it reverses the sign. Cells may stand between
 //! commas, semicolons (with decimal commas) or tabs. An empty cell was not measured. Times may be
-//! dates. A row of units may follow the header.
+//! dates, or seconds with their nanoseconds in another column. Positions may be latitude and
+//! longitude. A row of units may follow the header.
 
 use crate::unit::SpeedUnit;
 use std::collections::BTreeMap;
@@ -13,6 +14,7 @@ use std::f64::consts::TAU;
 use std::fmt;
 use std::str::FromStr;
 
+mod place;
 mod rows;
 mod time;
 mod units;
@@ -23,10 +25,14 @@ pub use rows::read;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Key {
     Time,
+    /// What a time has beside its seconds.
+    Nanoseconds,
     Left,
     Right,
     X,
     Y,
+    Latitude,
+    Longitude,
     Yaw,
     Qx,
     Qy,
@@ -37,14 +43,17 @@ enum Key {
 }
 
 /// Keys by their names; the first name of each is the one that messages use.
-const KEYS: [(&str, Key); 14] = [
+const KEYS: [(&str, Key); 17] = [
     ("t", Key::Time),
+    ("t_ns", Key::Nanoseconds),
     ("v_l", Key::Left),
     ("v_left", Key::Left),
     ("v_r", Key::Right),
     ("v_right", Key::Right),
     ("x", Key::X),
     ("y", Key::Y),
+    ("lat", Key::Latitude),
+    ("lon", Key::Longitude),
     ("yaw", Key::Yaw),
     ("qx", Key::Qx),
     ("qy", Key::Qy),
@@ -55,7 +64,8 @@ const KEYS: [(&str, Key); 14] = [
 ];
 
 /// What poses are told by.
-const POSE: [Key; 7] = [Key::X, Key::Y, Key::Yaw, Key::Qx, Key::Qy, Key::Qz, Key::Qw];
+const POSE: [Key; 9] =
+    [Key::X, Key::Y, Key::Latitude, Key::Longitude, Key::Yaw, Key::Qx, Key::Qy, Key::Qz, Key::Qw];
 
 /// Units of times in s, of lengths in m, of angles in rad, and of yaw rates in rad/s.
 const TIMES: [(&str, f64); 7] = [
@@ -105,6 +115,7 @@ impl Key {
             Self::Yaw if name == COMPASS => Some(Unit::Compass),
             Self::Yaw => factor(&ANGLES),
             Self::Gyro => factor(&RATES),
+            Self::Nanoseconds | Self::Latitude | Self::Longitude => None,
             Self::Qx | Self::Qy | Self::Qz | Self::Qw | Self::Run => None,
         }
     }
@@ -150,8 +161,8 @@ impl FromStr for Columns {
             });
             let Some((key, name)) = known.filter(|(_, name)| !name.is_empty()) else {
                 return Err(format!(
-                    "{part:?}: expected KEY=COLUMN with a key of t, v_l, v_r, x, y, yaw (or qx, \
-                     qy, qz, qw), gyro_z, run"
+                    "{part:?}: expected KEY=COLUMN with a key of t, t_ns, v_l, v_r, x, y (or \
+                     lat, lon), yaw (or qx, qy, qz, qw), gyro_z, run"
                 ));
             };
             if columns.insert(key, Column::parse(key, name)).is_some() {
@@ -161,11 +172,15 @@ impl FromStr for Columns {
         let has = |key: Key| columns.contains_key(&key);
         let missing = |keys: &[Key]| keys.iter().copied().find(|key| !has(*key));
         let has_poses = POSE.into_iter().any(has);
-        let has_positions = has(Key::X) || has(Key::Y);
-        let needed: &[Key] = if has_positions { &[Key::X, Key::Y] } else { &[] };
-        let needed = [&[Key::Time, Key::Left, Key::Right], needed].concat();
+        let mut needed = vec![Key::Time, Key::Left, Key::Right];
+        let positions = [[Key::X, Key::Y], [Key::Latitude, Key::Longitude]];
+        let positions = positions.into_iter().filter(|pair| pair.iter().any(|key| has(*key)));
+        needed.extend(positions.flatten());
         if let Some(key) = missing(&needed) {
             return Err(format!("{0} is missing: expected {0}=COLUMN", key.name()));
+        }
+        if has(Key::X) && has(Key::Latitude) {
+            return Err("expected x=COLUMN and y=COLUMN, or lat=COLUMN and lon=COLUMN".into());
         }
         if !has_poses && !has(Key::Gyro) {
             return Err(
@@ -254,6 +269,8 @@ mod tests {
             ("t=a,v_l=b,v_r=c,y=d,yaw=e", "x is missing"),
             ("t=a,v_l=b,v_r=c,qz=d", "expected yaw=COLUMN, or qz=COLUMN"),
             ("t=a,v_l=b,v_r=c,x=d,gyro_z=e", "y is missing"),
+            ("t=a,v_l=b,v_r=c,lat=d,yaw=e", "lon is missing"),
+            ("t=a,v_l=b,v_r=c,x=d,y=e,lat=f,lon=g,yaw=h", "or lat=COLUMN and lon=COLUMN"),
             ("time=a", "expected KEY=COLUMN"),
             ("t=", "expected KEY=COLUMN"),
         ] {

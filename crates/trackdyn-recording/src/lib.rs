@@ -29,6 +29,7 @@ pub mod table;
 mod table_options;
 pub mod tum;
 pub mod unit;
+mod wgs84;
 
 pub use columns::Columns;
 pub use doubt::{Axes, Doubt, DoubtKind};

@@ -43,6 +43,12 @@ fn read(path: &Path, text: &str, options: &TableOptions) -> Result<Recording, Er
 
 #[track_caller]
 fn assert_is_truth(found: &Recording) {
+    assert_is_truth_to(1e-9, found);
+}
+
+/// Times, speeds and poses are the true ones to `most`, s, m/s, m and rad.
+#[track_caller]
+fn assert_is_truth_to(most: f64, found: &Recording) {
     let truth = truth();
     let (found, truth) = (&found.runs()[0], &truth.runs()[0]);
     assert_eq!(
@@ -51,13 +57,13 @@ fn assert_is_truth(found: &Recording) {
     );
     for (found, truth) in found.tracks().iter().zip(truth.tracks()) {
         let off = [found.t - truth.t, found.v_left - truth.v_left, found.v_right - truth.v_right];
-        assert!(off.iter().all(|off| off.abs() < 1e-9), "{found:?} {truth:?}");
+        assert!(off.iter().all(|off| off.abs() < most), "{found:?} {truth:?}");
     }
     for (found, truth) in found.poses().iter().zip(truth.poses()) {
         let yaw = trackdyn_core::pose::wrap_angle(found.pose.yaw - truth.pose.yaw);
         let off =
             [found.t - truth.t, found.pose.x - truth.pose.x, found.pose.y - truth.pose.y, yaw];
-        assert!(off.iter().all(|off| off.abs() < 1e-9), "{found:?} {truth:?}");
+        assert!(off.iter().all(|off| off.abs() < most), "{found:?} {truth:?}");
     }
 }
 
@@ -98,6 +104,33 @@ fn semicolons_decimal_commas_compasses_and_held_poses_are_read() {
     assert_is_truth(&found);
     let told = found.warnings().iter().map(ToString::to_string).collect::<String>();
     assert!(told.contains("rows: the others repeat the one before"), "{told}");
+}
+
+/// As ROS 2 stamps are written: seconds and nanoseconds apart. A degree at the equator is
+/// π/180 a of longitude and π/180 a (1 - e²) of latitude.
+#[test]
+fn nanoseconds_stand_apart_and_positions_may_be_degrees() {
+    const BY_LONGITUDE: f64 = 111_319.490_793;
+    const BY_LATITUDE: f64 = 110_574.275_822;
+    let of = |longitude: f64| {
+        table("sec,nanosec,l,r,lat,lon,yaw", move |[t, l, r, x, y, yaw], is_new| {
+            let pose = if is_new {
+                format!("{},{},{yaw}", y / BY_LATITUDE, longitude + x / BY_LONGITUDE)
+            } else {
+                "0,0,".to_owned()
+            };
+            let nanoseconds = (1e9 * t.fract()).round();
+            format!("{},{nanoseconds},{l},{r},{pose}", t.floor())
+        })
+    };
+    let text = "t=sec,t_ns=nanosec,v_l=l,v_r=r,lat=lat,lon=lon,yaw=yaw";
+    let read = |longitude: f64| {
+        let (_place, path) = of(longitude);
+        read(&path, text, &TableOptions::default())
+    };
+    assert_is_truth_to(1e-7, &read(10.0).expect("readable"));
+    let far = read(181.0).expect_err("no such longitude").to_string();
+    assert!(far.contains("expected a longitude between -180 and 180 degrees"), "{far}");
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! The rows of a table whose columns are named.
 
+use super::place::Places;
 use super::time::Times;
-use super::{Column, Columns, Key, Unit, units};
+use super::{Columns, Key, Unit, units};
 use crate::recording::{Recording, Source, UncheckedRun, Warning};
 use crate::recording::{divide, turn_by_gyroscope, turn_sensor};
 use crate::rosbag::yaw_of_quaternion;
@@ -77,16 +78,14 @@ fn rows(
         let column = columns.columns.get(&key)?;
         Some((table.column(&column.name)?, column))
     };
-    let [t, x, y] = [Key::Time, Key::X, Key::Y].map(at);
     let [left, right, yaw] = [Key::Left, Key::Right, Key::Yaw].map(at);
+    let [seconds, nanoseconds] = [Key::Time, Key::Nanoseconds].map(at);
     let quaternion = [Key::Qx, Key::Qy, Key::Qz, Key::Qw].map(at);
     let run = at(Key::Run).map(|(place, _)| place);
-    let places = [t, x, y, left, right, yaw].map(|of| of.map(|(place, _)| place));
-    let of_poses = options.pose_unit.factor();
-    let factors = [(t, 1.0), (x, of_poses), (y, of_poses)].map(|(of, open)| {
-        let unit = |column: &Column| if column.unit == Unit::Open { open } else { 1.0 };
-        of.map_or(1.0, |(_, column)| unit(column) * column.factor())
-    });
+    let [left, right] = [left, right].map(|of| of.map(|(place, _)| place));
+    let time = seconds.map(|(place, column)| (place, column.factor()));
+    let nanoseconds = nanoseconds.map(|(place, _)| place);
+    let mut places = Places::of(table, columns, options.pose_unit);
     let yaw = yaw.map(|(place, column)| (place, column.unit, column.factor()));
     let quaternion = quaternion.map(|of| of.map(|(place, column)| (place, column.sign)));
     let gyroscope = at(Key::Gyro).map(|(place, column)| {
@@ -101,16 +100,21 @@ fn rows(
         let number = |place: Option<usize>| place.map_or(Ok(f64::NAN), |at| table.number(at));
         let id = run.map_or(Ok(0), |at| table.integer(at))?;
         let of_run = runs.entry(id).or_insert_with(|| UncheckedRun { id, ..Default::default() });
-        let stamp = match places[0].filter(|at| table.value(*at).is_none()) {
-            Some(at) => times.read(table.cell(at)).ok_or_else(|| table.cell_error(at, TIME))?,
-            None => factors[0] * number(places[0])?,
+        let stamp = match time {
+            Some((at, _)) if table.value(at).is_none() => {
+                times.read(table.cell(at)).ok_or_else(|| table.cell_error(at, TIME))?
+            }
+            Some((at, factor)) => factor * table.number(at)?,
+            None => f64::NAN,
         };
-        let [v_left, v_right] = [number(places[3])?, number(places[4])?];
+        let beside = nanoseconds.map_or(Ok(0.0), |at| table.number(at))?;
+        let stamp = stamp + 1e-9 * beside;
+        let [v_left, v_right] = [number(left)?, number(right)?];
         if !(v_left.is_nan() && v_right.is_nan()) {
             let (v_left, v_right) = (scales[0] * v_left, scales[1] * v_right);
             of_run.tracks.samples.push(TrackSample { t: stamp, v_left, v_right });
         }
-        let [x, y] = [factors[1] * number(places[1])?, factors[2] * number(places[2])?];
+        let [x, y] = places.read(table)?;
         let yaw = match yaw {
             Some((place, Unit::Compass, sign)) => {
                 FRAC_PI_2 - sign * table.number(place)? * TAU / 360.0

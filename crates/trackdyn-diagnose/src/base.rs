@@ -7,14 +7,17 @@
 
 use crate::equations::{Column, Stack};
 use crate::fit::Fit;
-use crate::hypothesis::{Hypothesis, Unknown, at_share, typical, unknowns_of, with_friction};
+use crate::hypothesis::{
+    Hypothesis, Unknown, active, at_share, neutral, typical, unknowns_of, with_friction,
+};
 use crate::mechanics::{Mechanics, is_instrument, single};
 use crate::normal::{Columns, Normal, Prior};
 use crate::prior::prior;
 use crate::progress::{Cancelled, Watch};
 use crate::weighted::Weighted;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use trackdyn_core::PerSide;
+use trackdyn_model::effect::Parameter;
 use trackdyn_model::{ActiveEffect, Circumstance, EffectId, Effects, Model, Vehicle, VehicleFile};
 use trackdyn_model::{Icrs, Stationary};
 
@@ -260,23 +263,66 @@ struct Absorbed {
     off: Vector3<f64>,
 }
 
-/// Sets friction and centre of gravity of a vehicle file to those of a vehicle that has, with the
-/// effects of the file, the constant ICRs of a hypothesis, at the friction level `level`; to those
-/// of the hypothesis, without effects, where no vehicle has these ICRs.
-pub fn correct_constants(file: &mut VehicleFile, hypothesis: &Hypothesis, level: f64) {
+/// Gives a vehicle file, with its effects, the constant ICRs of a hypothesis at the friction level
+/// `level`: by friction and centre of gravity. Those of the hypothesis, without effects, are taken
+/// where no vehicle has these ICRs.
+///
+/// What moves both ICRs alike by more than `tolerated` (m) was left by a fit that found no centre
+/// of gravity for it. From a pose sensor at d, ICRs are seen moved by -d, so it is moved instead.
+pub fn correct_constants(
+    file: &mut VehicleFile,
+    hypothesis: &Hypothesis,
+    level: f64,
+    tolerated: f64,
+) {
+    let [left, right, y] = hypothesis.offset;
+    let common = [f64::midpoint(left, right), y];
+    let lever = |file: &VehicleFile| Vector2::from(file.model().sensor().lever);
+    let before = lever(file);
+    if common.iter().any(|part| part.abs() > tolerated)
+        && let Some(sensor) = moved_sensor(file, common.map(|part| -part))
+    {
+        file.effects.insert(sensor);
+    }
+    let moved = lever(file) - before;
+    let offset = Vector3::new(left + moved[0], right + moved[0], y + moved[1]);
     let from = with_friction(&hypothesis.vehicle, level - hypothesis.friction_level);
     let spin = |vehicle: &Vehicle| spin_with(vehicle, file.effects.clone());
     let own = spin_with(&hypothesis.vehicle, hypothesis.effects.clone());
-    let wanted = own.map(|own| own + Vector3::from(hypothesis.offset));
+    let wanted = own.map(|own| own + offset);
     let absorbed = wanted.and_then(|wanted| Calibration::Vehicle.absorbed(&from, wanted, &spin));
     let alone = || {
-        let calibrated = Calibration::Vehicle.calibrated(hypothesis)?;
+        let left = Hypothesis { offset: offset.into(), ..hypothesis.clone() };
+        let calibrated = Calibration::Vehicle.calibrated(&left)?;
         Some(with_friction(&calibrated.vehicle, level - hypothesis.friction_level))
     };
     let absorbed = absorbed.map(|absorbed| absorbed.vehicle);
     let vehicle = absorbed.or_else(alone).unwrap_or(from);
     file.vehicle.friction = vehicle.friction;
     file.vehicle.cog = vehicle.cog;
+}
+
+/// The effect that tells the place of the pose sensor, with the sensor of a vehicle file moved by
+/// (x right, y forward), m; none where no effect tells it.
+fn moved_sensor(file: &VehicleFile, by: [f64; 2]) -> Option<ActiveEffect> {
+    EffectId::all().find_map(|effect| {
+        let parameters = effect.card().parameters;
+        let lever = |values: &[f64]| {
+            Vector2::from(single(&file.vehicle, &active(effect, values)).sensor().lever)
+        };
+        let none: Vec<f64> = parameters.iter().map(neutral).collect();
+        let [first, second] = parameters else { return None };
+        let slope = |place: usize, parameter: &Parameter| {
+            let mut moved = none.clone();
+            moved[place] = parameter.typical;
+            (lever(&moved) - lever(&none)) / (parameter.typical - none[place])
+        };
+        let slopes = Matrix2::from_columns(&[slope(0, first), slope(1, second)]);
+        let sizes = slopes.try_inverse()? * Vector2::from(by);
+        let present =
+            file.effects.get(effect.card().id).map_or(none.clone(), |one| one.values().to_vec());
+        Some(active(effect, &[present[0] + sizes[0], present[1] + sizes[1]]))
+    })
 }
 
 /// Constant ICRs of a vehicle without effects, in a slow spin, m.
@@ -302,7 +348,6 @@ pub fn with_vehicle(hypothesis: &Hypothesis, vehicle: &Vehicle) -> Option<Hypoth
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hypothesis::active;
     use crate::settings;
 
     /// An unclaimed effect leaves its shift of the ICRs, and the offset, to the vehicle; friction
@@ -310,6 +355,7 @@ mod tests {
     #[test]
     fn the_vehicle_takes_over_what_is_not_claimed() {
         const LEVEL: f64 = 0.1;
+        const TOLERATED: f64 = 0.1;
         let mut file = VehicleFile::auriga_alpha();
         let gradient = EffectId::of("friction-gradient");
         let gradient = gradient.expect("an effect");
@@ -322,14 +368,14 @@ mod tests {
         let wanted = with + Vector3::from(hypothesis.offset);
         let product = |vehicle: &Vehicle| vehicle.friction.across * vehicle.friction.along;
         let before = product(&file.vehicle);
-        correct_constants(&mut file, &hypothesis, LEVEL);
+        correct_constants(&mut file, &hypothesis, LEVEL, TOLERATED);
         let off = spin(&file.vehicle).expect("a spin") - wanted;
         assert!(off.norm() < 1e-6, "{off}");
         assert!((product(&file.vehicle) / before - (2.0 * LEVEL).exp()).abs() < 1e-9);
         // an effect in the file as fitted is not absorbed
         let mut file = VehicleFile::auriga_alpha();
         file.effects.insert(hypothesis.effect(gradient).expect("there").clone());
-        correct_constants(&mut file, &hypothesis, 0.0);
+        correct_constants(&mut file, &hypothesis, 0.0, TOLERATED);
         let off = spin_with(&file.vehicle, file.effects.clone()).expect("a spin") - wanted;
         assert!(off.norm() < 1e-6, "{off}");
         // nor one that changes what the friction ratio does to the ICRs
@@ -338,10 +384,30 @@ mod tests {
         let hypothesis = hypothesis.without(gradient).with_effect(concentration);
         let mut file = VehicleFile::auriga_alpha();
         file.effects = hypothesis.effects.clone();
-        correct_constants(&mut file, &hypothesis, LEVEL);
+        correct_constants(&mut file, &hypothesis, LEVEL, TOLERATED);
         let own = spin_with(&hypothesis.vehicle, hypothesis.effects.clone()).expect("a spin");
         let there = spin_with(&file.vehicle, file.effects).expect("a spin");
         let off = there - own - Vector3::from(hypothesis.offset);
         assert!(off.norm() < 1e-6, "{off}");
+    }
+
+    /// A fit that leaves an offset found no centre of gravity for what is common to both ICRs; seen
+    /// from the sensor, they are where the fit has them.
+    #[test]
+    fn what_the_fit_leaves_to_no_centre_of_gravity_is_left_to_the_sensor() {
+        let mut file = VehicleFile::auriga_alpha();
+        let before = file.vehicle.clone();
+        let filed = Hypothesis::filed(&file, &settings::Prior::default());
+        let hypothesis = Hypothesis { offset: [0.03, 0.05, -0.02], ..filed };
+        correct_constants(&mut file, &hypothesis, 0.0, 0.004);
+        let [right, forward] = file.model().sensor().lever;
+        let seen = spin_with(&file.vehicle, file.effects.clone()).expect("a spin")
+            - Vector3::new(right, right, forward);
+        let wanted = spin(&before).expect("a spin") + Vector3::from(hypothesis.offset);
+        assert!((seen - wanted).norm() < 1e-6, "{seen} {wanted}");
+        let moved = [0, 1].map(|axis| file.vehicle.cog[axis] - before.cog[axis]);
+        // the friction ratio takes the rest, and moves the middle by little
+        assert!(moved.iter().all(|moved| moved.abs() < 2e-3), "{moved:?}");
+        assert!((right + 0.04).abs() < 1e-9 && (forward - 0.02).abs() < 1e-9);
     }
 }

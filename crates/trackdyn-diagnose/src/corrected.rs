@@ -10,8 +10,9 @@ use nalgebra::Vector3;
 use trackdyn_model::VehicleFile;
 
 /// The filed vehicle with all claims, with the friction level where it clearly differs, and with a
-/// proposed law. Where constant ICRs were wrong, friction ratio and centre of gravity stand for
-/// everything that could have moved them. `min_icr_difference` is in gauges.
+/// proposed law. Where constant ICRs were wrong, friction ratio, centre of gravity and the place of
+/// the pose sensor stand for everything that could have moved them. `min_icr_difference` is in
+/// gauges.
 pub(crate) fn corrected(
     file: &VehicleFile,
     best: &Found,
@@ -54,7 +55,7 @@ fn with_claims(
     }
     // Constants that are right may have been those of other numbers than the claimed ones.
     if !constants.is_empty() || is_elsewhere(&corrected, hypothesis, tolerated) {
-        correct_constants(&mut corrected, hypothesis, level);
+        correct_constants(&mut corrected, hypothesis, level, tolerated);
     }
     corrected
 }

@@ -284,9 +284,13 @@ impl Fit {
     fn descent(self, are_own: bool, evidence: &Weighted) -> (Self, f64) {
         let mut fit = self;
         let (mut are_own, mut since) = (are_own, 0.0);
+        let mut largest = 0;
         let settings::Fit { max_steps, min_fall, max_promise_error, .. } = evidence.settings().fit;
         for _ in 0..max_steps {
-            let next = fit.next(evidence);
+            let (next, share) = fit.next(largest, evidence).unzip();
+            // A step as long as the last one, or the next longer one, comes first: longer ones
+            // lead where the law was not linear.
+            largest = share.map_or(0, |share| share.saturating_sub(1));
             let gain = next.as_ref().map_or(0.0, |next| fit.objective - next.objective);
             let promised = fit.solution.gain;
             let foretold = (gain - promised).abs() < max_promise_error * promised + min_fall;
@@ -323,19 +327,20 @@ impl Fit {
         Self::linearised(point, &unknowns, evidence)
     }
 
-    /// The point after the largest tried share of the step that lowers the objective; none where no
-    /// share does, or the promised decrease is negligible.
-    fn next(&self, evidence: &Weighted) -> Option<Point> {
+    /// The point after the largest share of the step that lowers the objective, and the place of
+    /// that share, from the share at place `largest` on; none where no share does, or the promised
+    /// decrease is negligible.
+    fn next(&self, largest: usize, evidence: &Weighted) -> Option<(Point, usize)> {
         let settings = &evidence.settings().fit;
         if self.solution.gain < settings.min_promised_fall {
             return None;
         }
-        settings.step_shares.into_iter().find_map(|share| {
+        settings.step_shares.into_iter().enumerate().skip(largest).find_map(|(place, share)| {
             let hypothesis = self.stepped(share);
             let mechanics = self.mechanics.on_the_way(&hypothesis, &self.unknowns, evidence);
             let unknowns = &self.unknowns;
             let point = Point::with_mechanics(hypothesis, mechanics, unknowns, evidence);
-            (point.objective < self.objective).then_some(point)
+            (point.objective < self.objective).then_some((point, place))
         })
     }
 

@@ -25,7 +25,7 @@ mod slope;
 
 use crate::evidence::{Evidence, Origin, Sample};
 use crate::hypothesis::{Hypothesis, Unknown};
-use crate::surface::{Steady, Surface};
+use crate::surface::{HOPELESS, Steady, Surface};
 use belts::lagging;
 use by_shear::ByShear;
 use ground::{Acts, ByGround, acts};
@@ -455,7 +455,9 @@ fn are_from_one<T>([here, there]: [Option<&T>; 2], is_from: impl Fn(&T, &T) -> b
 fn unbalanced(surface: &Surface, most: f64) -> Option<String> {
     let share = surface.unsolved();
     (share > most).then(|| {
-        format!("at {:.0} % of the speeds the robot tips over or no forces balance", 100.0 * share)
+        let part =
+            if share > HOPELESS { "most".to_owned() } else { format!("{:.0} %", 100.0 * share) };
+        format!("at {part} of the speeds the robot tips over or no forces balance")
     })
 }
 

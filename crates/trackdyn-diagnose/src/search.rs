@@ -171,9 +171,8 @@ impl Search {
         })
     }
 
-    /// Refits of the screened candidates, best first, as long as one promises about as much as the
-    /// best refit kept: where laws are not linear, a refit keeps less than its screen promised, and
-    /// others may keep more.
+    /// Refits of the screened candidates, best first. What a screen promises of a law that is not
+    /// linear is no measure: a high centre of gravity kept eight times as much.
     fn singles(
         &self,
         beside: &Found,
@@ -181,21 +180,13 @@ impl Search {
         watch: &Watch,
     ) -> Result<Vec<Found>, Cancelled> {
         let settings = &self.settings().search;
-        let worth = settings.min_ln_evidence;
-        let mut refitted: Vec<Found> = Vec::new();
-        let mut kept: f64 = 0.0;
-        for one in screened.iter().take(settings.max_refitted_singles) {
-            let least = settings.min_relative_gain * kept - worth;
-            if one.gain <= least.max(settings.min_promised_share * worth) {
-                break;
-            }
+        let least = settings.min_promised_share * settings.min_ln_evidence;
+        let worthy = screened.iter().take(settings.max_refitted_singles);
+        let refit = |one: &Screened| {
             watch.go_on()?;
-            let found = self.refit(beside, std::slice::from_ref(one));
-            // What a refit keeps beyond its own promise, no other promise can match.
-            kept = kept.max((found.ln_evidence - beside.ln_evidence).min(one.gain));
-            refitted.push(found);
-        }
-        Ok(refitted)
+            Ok(self.refit(beside, std::slice::from_ref(one)))
+        };
+        worthy.take_while(|one| one.gain > least).map(refit).collect()
     }
 
     /// The best hypothesis.

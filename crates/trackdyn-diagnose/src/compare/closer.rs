@@ -54,8 +54,9 @@ impl Closer {
         let unseen = sets[1].diagnosis.evidence.unseen.as_ref().map(|unseen| &unseen.evidence);
         let of_unseen = unseen.map(|unseen| predicted(unseen, None));
         let near = unseen.is_none().then_some(&own.mechanics);
+        let tolerated = seen.settings().verdict.min_icr_difference * file.vehicle.gauge;
         let [first, second] =
-            [&shared.as_first, &shared.as_second].map(|model| vehicle(file, model));
+            [&shared.as_first, &shared.as_second].map(|model| vehicle(file, model, tolerated));
         let drift = Drift::of(unseen.unwrap_or(seen), [&first, &second], [near; 2]);
         Self {
             drift,
@@ -105,14 +106,13 @@ pub(super) fn judge(both: Sets, mut judged: Vec<Difference>) -> (Vec<Difference>
     }
 }
 
-/// A vehicle file with all of a hypothesis: effects, and friction and centre of gravity that have
-/// its constant ICRs.
-fn vehicle(file: &VehicleFile, hypothesis: &Hypothesis) -> VehicleFile {
+/// A vehicle file with all of a hypothesis: effects, and its constant ICRs to `tolerated`, m.
+fn vehicle(file: &VehicleFile, hypothesis: &Hypothesis, tolerated: f64) -> VehicleFile {
     let mut vehicle = file.clone();
     for effect in &hypothesis.effects {
         vehicle.effects.insert(effect.clone());
     }
-    correct_constants(&mut vehicle, hypothesis, hypothesis.friction_level);
+    correct_constants(&mut vehicle, hypothesis, hypothesis.friction_level, tolerated);
     vehicle
 }
 

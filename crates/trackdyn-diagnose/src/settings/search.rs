@@ -33,7 +33,7 @@ group! {
         max_refitted_exchanges: usize = 2, "", [0.0, 100.0],
             "Each takes a simulation.",
             "Lower: look-alikes win.";
-        /// Part of what the best refit kept that others must promise.
+        /// Part of what an effect is worth that one in its place must promise.
         min_relative_gain: f64 = 0.8, "", [0.0, 1.0],
             "Room for the screen's error.",
             "Higher: the truth is passed over.";

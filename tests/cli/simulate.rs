@@ -127,7 +127,7 @@ fn an_owner_s_vehicle_file_is_not_replaced() {
 #[test]
 fn a_robot_that_lifts_drives_on_and_one_that_tips_stops_with_the_reason() {
     let place = Workplace::new();
-    place.write("jump.csv", "t,v_left,v_right\n0,1,1\n1,0,0\n");
+    place.write("jump.csv", "t,v_left,v_right\n0,4,4\n1,0,0\n");
     let run = place.run("simulate --schedule jump.csv --effect load-transfer:cog_height_m=0.3");
     assert_eq!(run.status, 0, "{}", run.stderr);
     let tall = "--effect load-transfer:cog_height_m=0.6 --out tall";

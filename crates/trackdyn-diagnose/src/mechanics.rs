@@ -221,13 +221,13 @@ impl Mechanics {
 
     /// Mechanics of a hypothesis that differs by one step, as of a finite difference. The inertial
     /// departure, and its change by shear-stress laws, are extrapolated wherever possible: a jump
-    /// by a new simulation would be divided by the step.
+    /// by a new simulation would be divided by the step. Beside an impossible hypothesis there is
+    /// none.
     pub fn varied(&self, hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
         let inertia = |inert: Vec<ActiveEffect>, case: &Case| {
             let moved = match &self.in_time {
-                InTime::Stationary | InTime::Impossible(_) => {
-                    return InertiaNear::here(inert, case);
-                }
+                InTime::Stationary => return InertiaNear::here(inert, case),
+                InTime::Impossible(reason) => return Err(reason.clone()),
                 InTime::Found { inertia, .. } => inertia.moved(&inert, case, Within::A_STEP),
                 InTime::OfAnother(_) => None,
             };

@@ -5,6 +5,10 @@
 //! and `centripetal` they include inertia and are Newton's second law. Without, the motion is
 //! always the stationary one.
 //!
+//! # Tipping
+//! A simulation stops where the load lies outside the contact for [`FALL`]. Until then one side
+//! bears all of it, and the other none.
+//!
 //! # Stick and slip
 //! Coulomb friction is undefined where a whole track sticks. Only there it is regularised: the
 //! friction wrench of a side is multiplied by σ/√(σ² + ε²), with σ the root mean square of its slip
@@ -45,6 +49,13 @@ const SAFETY: f64 = 0.8;
 
 /// Largest growth from one step to the next, and largest loss at a try.
 const GROWTH: [f64; 2] = [0.3, 4.0];
+
+/// Time for which the load may lie outside the contact, s: a body a metre high falls as an inverted
+/// pendulum does, with √(h/g) = 0.3 s. A jolt of the track speeds lifts a side for less.
+const FALL: f64 = 0.3;
+
+const TIPS: &str = "the robot tips over: gentler changes of speed, or a lower centre of gravity, \
+                    keep it on the ground";
 
 /// Largest number of halvings of a step for convergence.
 const MAX_HALVINGS: u32 = 10;
@@ -141,6 +152,8 @@ struct State {
     traction: PerSide<f64>,
     /// Whether the resultant load lies outside the contact.
     tips: bool,
+    /// Time for which it has, s.
+    tipping: f64,
     /// Inverse Jacobian of the last balance.
     inverse: Inverse,
 }
@@ -161,6 +174,7 @@ impl<'m> Transient<'m> {
             belt_speed: still,
             traction: still,
             tips: false,
+            tipping: 0.0,
             inverse: Inverse::default(),
         };
         Self {
@@ -228,8 +242,8 @@ impl<'m> Transient<'m> {
             return Ok(());
         }
         if halvings == MAX_HALVINGS {
-            let reason = "no motion balances the forces on the robot".to_owned();
-            return Err(Stopped { t: self.state.t, reason });
+            let unbalanced = "no motion balances the forces on the robot";
+            return Err(self.stopped(if self.state.tips { TIPS } else { unbalanced }));
         }
         self.step(shown, f64::midpoint(self.state.t, end), halvings + 1)?;
         self.step(shown, end, halvings + 1)
@@ -274,14 +288,15 @@ impl<'m> Transient<'m> {
         }
     }
 
+    fn stopped(&self, reason: &str) -> Stopped {
+        Stopped { t: self.state.t, reason: reason.to_owned() }
+    }
+
     /// Records where a step led.
     fn arrived(&self, trajectory: &mut Trajectory) -> Result<(), Stopped> {
         trajectory.push(self.moment());
-        if self.state.tips {
-            let reason = "the robot tips over: gentler changes of speed, or a lower centre of \
-                          gravity, keep it on the ground"
-                .to_owned();
-            return Err(Stopped { t: self.state.t, reason });
+        if self.state.tipping > FALL {
+            return Err(self.stopped(TIPS));
         }
         Ok(())
     }
@@ -289,7 +304,8 @@ impl<'m> Transient<'m> {
     /// Goes on to the end of a step with these stages.
     fn accept(&mut self, state: &State, stages: [Instant; 2]) {
         let duration = state.t - self.state.t;
-        self.state = *state;
+        let tipping = if state.tips { self.state.tipping + duration } else { 0.0 };
+        self.state = State { tipping, ..*state };
         if let Some(steps) = &mut self.steps {
             steps.push(Step { end: state.t, duration, stages });
         }

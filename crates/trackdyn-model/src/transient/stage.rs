@@ -3,7 +3,7 @@
 use crate::newton::{self, Convergence, Evaluation, Tolerance};
 use crate::{Balance, Ground, Model, Motion};
 use nalgebra::{SMatrix, SVector, Vector3};
-use trackdyn_core::{Dual, PerSide, Scalar, Twist};
+use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist};
 
 /// Tolerance of the residual over the weight: 10⁻⁹ of gravity moves no robot.
 const TOLERANCE: Tolerance = Tolerance { converged: 1e-11, rounding: 1e-9, is_trusting: false };
@@ -193,7 +193,8 @@ fn traction<S: Scalar, const N: usize>(z: &[S; N]) -> PerSide<S> {
     PerSide::new(at(UNKNOWNS_WITHOUT_SLIP), at(UNKNOWNS_WITHOUT_SLIP + 1))
 }
 
-/// Forces on the body, with friction regularised below the slip velocity `creep`, m/s.
+/// Forces on the body, with friction regularised below the slip velocity `creep`, m/s. The ground
+/// does not pull: a side without load has no friction, and the other one that of the weight.
 #[inline]
 pub fn gripping<S: Scalar>(
     model: &Model,
@@ -202,8 +203,14 @@ pub fn gripping<S: Scalar>(
     creep: f64,
 ) -> Balance<S> {
     let balance = model.balance(ground, motion);
+    let load = balance.normal_load;
+    let borne = |side: Side| match (load[side], load[side.other()]) {
+        (own, _) if own.value() <= 0.0 => S::from(0.0),
+        (own, other) if other.value() < 0.0 => (own + other) / own,
+        _ => S::from(1.0),
+    };
     let friction = PerSide::from_fn(|side| {
-        balance.friction[side].scaled(grip(motion.slip[side].speed, creep))
+        balance.friction[side].scaled(borne(side) * grip(motion.slip[side].speed, creep))
     });
     Balance { friction, ..balance }
 }

@@ -12,7 +12,6 @@
 //! given beside, for independent Gaussian errors of the first and the last pose of a piece.
 
 use crate::evidence::{Origin, Sample};
-use crate::mechanics::Mechanics;
 use crate::replay;
 use crate::weighted::Weighted;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -60,20 +59,15 @@ pub struct Compared {
 
 impl Drift {
     /// Drift over all runs of evidence with two vehicle files, as filed and as corrected; none of a
-    /// table of steady points, or where a motion in time fails. `near` is the mechanics of a
-    /// similar vehicle on the same evidence, by which that is moved.
+    /// table of steady points, or where one has no motion in time.
     ///
     /// A piece crosses no gap, and no sample that is lost or has no motion. Pieces are as long as
     /// ten of them allow.
-    pub fn of(
-        evidence: &Weighted,
-        files: [&VehicleFile; 2],
-        near: [Option<&Mechanics>; 2],
-    ) -> Self {
+    pub fn of(evidence: &Weighted, files: [&VehicleFile; 2]) -> Self {
         if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
             return Self::default();
         }
-        let [before, after] = [0, 1].map(|k| replay::motions_near(evidence, files[k], near[k]));
+        let [before, after] = files.map(|file| replay::motions(evidence, file));
         let (Some(before), Some(after)) = (before, after) else { return Self::default() };
         let motions = [before, after];
         let samples = evidence.samples();

@@ -11,9 +11,7 @@
 //! # Assumes
 //! Both departures are computed without shear-stress laws, which need a quadrature per solve. Their
 //! influence on the ground departure is of second order and neglected; that on the inertial
-//! departure is found from it in a few Newton steps. Where the transient simulation fails, the
-//! departure of a similar hypothesis is moved by its slopes: ticks of a coarse encoder may tip over
-//! a high robot that never was close to it.
+//! departure is found from it in a few Newton steps.
 
 mod belts;
 mod by_shear;
@@ -81,9 +79,6 @@ enum InTime {
         /// Change of it by shear-stress laws; none without such laws.
         sheared: Option<ByShear>,
     },
-    /// Moved from another robot, without shear-stress laws: the transient simulation of this one
-    /// fails.
-    OfAnother(InertiaNear),
     /// The hypothesis is impossible: forces do not balance over a large share of the speeds, or the
     /// transient simulation fails.
     Impossible(String),
@@ -93,7 +88,7 @@ impl InTime {
     /// Departure without shear-stress laws; none where there is no departure.
     fn inertia(&self) -> Option<&InertiaNear> {
         match self {
-            Self::Found { inertia, .. } | Self::OfAnother(inertia) => Some(inertia),
+            Self::Found { inertia, .. } => Some(inertia),
             Self::Stationary | Self::Impossible(_) => None,
         }
     }
@@ -109,7 +104,7 @@ impl InTime {
     fn sheared(&self) -> Option<&ByShear> {
         match self {
             Self::Found { sheared, .. } => sheared.as_ref(),
-            Self::Stationary | Self::OfAnother(_) | Self::Impossible(_) => None,
+            Self::Stationary | Self::Impossible(_) => None,
         }
     }
 }
@@ -229,7 +224,6 @@ impl Mechanics {
                 InTime::Stationary => return InertiaNear::here(inert, case),
                 InTime::Impossible(reason) => return Err(reason.clone()),
                 InTime::Found { inertia, .. } => inertia.moved(&inert, case, Within::A_STEP),
-                InTime::OfAnother(_) => None,
             };
             moved.ok_or_else(|| "found for another robot".to_owned())
         };
@@ -323,16 +317,11 @@ impl Mechanics {
                 let sheared = (!shear.is_empty()).then(beside);
                 InTime::Found { inertia, sheared }
             }
-            // Where the transient simulation fails, the departure of a similar hypothesis is moved
-            // to this one: as it is, it would fit whatever the sizes.
-            Err(reason) => {
-                let known = before.and_then(|before| before.in_time.inertia());
-                let the_way = Within::the_way(&evidence.settings().mechanics);
-                let moved = known.and_then(|known| known.moved(&inert, &case, the_way));
-                // a step of a difference quotient without a slope changes nothing
-                let kept = || known.filter(|_| within.is_a_step()).cloned();
-                moved.or_else(kept).map_or(InTime::Impossible(reason), InTime::OfAnother)
-            }
+            // a step of a difference quotient without a slope changes nothing
+            Err(reason) => match before {
+                Some(before) if within.is_a_step() => before.in_time.clone(),
+                _ => InTime::Impossible(reason),
+            },
         }
     }
 
@@ -361,7 +350,7 @@ impl Mechanics {
     pub fn failure(&self) -> Option<&str> {
         match &self.in_time {
             InTime::Impossible(reason) => Some(reason),
-            InTime::Stationary | InTime::Found { .. } | InTime::OfAnother(_) => None,
+            InTime::Stationary | InTime::Found { .. } => None,
         }
     }
 

@@ -8,33 +8,14 @@ use std::ops::Range;
 use trackdyn_core::Pose;
 use trackdyn_model::{Sensor, VehicleFile};
 
-/// The motion of every sample with a vehicle file, seen from its beginning. Where the file says
-/// nothing of the clock, poses come late by what suits its turning best: the recording's own offset
-/// holds the time by which inertia answers, too.
-pub fn motions(evidence: &Evidence, file: &VehicleFile) -> Vec<Pose> {
-    let (mechanics, instruments) = driven(evidence, file, None);
-    by(&mechanics, &instruments, evidence)
-}
-
-/// As [`motions`], beside the mechanics of a similar vehicle on the same evidence, by which a
-/// motion in time is moved that cannot be simulated; none where it fails all the same.
-pub fn motions_near(
-    evidence: &Evidence,
-    file: &VehicleFile,
-    near: Option<&Mechanics>,
-) -> Option<Vec<Pose>> {
-    let (mechanics, instruments) = driven(evidence, file, near);
-    mechanics.failure().is_none().then(|| by(&mechanics, &instruments, evidence))
-}
-
-/// A vehicle file on this evidence.
-fn driven(
-    evidence: &Evidence,
-    file: &VehicleFile,
-    near: Option<&Mechanics>,
-) -> (Mechanics, Instruments) {
+/// The motion of every sample with a vehicle file, seen from its beginning; none where it has no
+/// motion in time. Where the file says nothing of the clock, poses come late by what suits its
+/// turning best: the recording's own offset holds the time by which inertia answers, too.
+pub fn motions(evidence: &Evidence, file: &VehicleFile) -> Option<Vec<Pose>> {
     let hypothesis = Hypothesis::filed(file, &evidence.settings().prior);
-    (Mechanics::beside(near, &hypothesis, evidence), Instruments::of(&hypothesis))
+    let (mechanics, instruments) =
+        (Mechanics::new(&hypothesis, evidence), Instruments::of(&hypothesis));
+    mechanics.failure().is_none().then(|| by(&mechanics, &instruments, evidence))
 }
 
 fn by(mechanics: &Mechanics, instruments: &Instruments, evidence: &Evidence) -> Vec<Pose> {

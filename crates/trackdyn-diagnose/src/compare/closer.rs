@@ -44,7 +44,6 @@ impl Closer {
                 .map(|one| Predicted::by(one, evidence, fitted))
         };
         let seen = &sets[1].search.evidence;
-        // a motion in time that fails is taken from that of the fit, of the same runs
         let of_seen = predicted(seen, Some(&own.mechanics));
         let [_, alike, apart] = of_seen.each_ref().map(|one| one.loss);
         let free = real(own.free.len());
@@ -53,11 +52,10 @@ impl Closer {
         let left = if alike.is_finite() { alike - apart - by_chance } else { 0.0 };
         let unseen = sets[1].diagnosis.evidence.unseen.as_ref().map(|unseen| &unseen.evidence);
         let of_unseen = unseen.map(|unseen| predicted(unseen, None));
-        let near = unseen.is_none().then_some(&own.mechanics);
         let tolerated = seen.settings().verdict.min_icr_difference * file.vehicle.gauge;
         let [first, second] =
             [&shared.as_first, &shared.as_second].map(|model| vehicle(file, model, tolerated));
-        let drift = Drift::of(unseen.unwrap_or(seen), [&first, &second], [near; 2]);
+        let drift = Drift::of(unseen.unwrap_or(seen), [&first, &second]);
         Self {
             drift,
             errors: of_unseen.unwrap_or(of_seen).map(|one| one.error),

@@ -154,8 +154,7 @@ pub fn examine(
 
     // Drift: errors of dead reckoning, in units of driving.
     let judging = tested.unseen.as_ref().map_or(&judged.search.evidence, |unseen| &unseen.evidence);
-    let near = tested.unseen.is_none().then_some(&judged.best.fit.mechanics);
-    let drift = Drift::of(judging, [file, &corrected], [None, near]);
+    let drift = Drift::of(judging, [file, &corrected]);
 
     let Judged { search, screened: _, constants, best, friction_level, missing, refused } = judged;
     let place = located.sentence(&search);

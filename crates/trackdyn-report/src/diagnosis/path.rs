@@ -27,7 +27,7 @@ struct Replay {
     is_held_out: bool,
     times: Vec<f64>,
     observed: Vec<Pose>,
-    /// Before and after.
+    /// Before and after; empty without a motion.
     replayed: [Vec<Pose>; 2],
 }
 
@@ -95,10 +95,10 @@ fn longest(view: &View) -> Option<Range<usize>> {
     Some(piece(samples, first))
 }
 
-/// Evidence with the motions that both vehicle files predict.
+/// Evidence with the motions that both vehicle files predict, where they have one.
 struct Replays<'a> {
     view: View<'a>,
-    motions: [Vec<Pose>; 2],
+    motions: [Option<Vec<Pose>>; 2],
 }
 
 impl<'a> Replays<'a> {
@@ -115,14 +115,15 @@ impl<'a> Replays<'a> {
         let times = replay::times(evidence, chosen.clone());
         let times: Vec<f64> = times.iter().map(|time| time - first.start).collect();
         let observed = replay::observed(evidence, chosen.clone());
-        let replayed = self.motions.each_ref();
-        let replayed = replayed.map(|motions| replay::chained(evidence, chosen.clone(), motions));
+        let chained =
+            |motions: &Vec<Pose>| every(&replay::chained(evidence, chosen.clone(), motions), each);
+        let replayed = self.motions.each_ref().map(|of| of.as_ref().map_or_else(Vec::new, chained));
         Replay {
             run: evidence.runs()[first.run],
             is_held_out,
             times: every(&times, each),
             observed: every(&observed, each),
-            replayed: replayed.map(|path| every(&path, each)),
+            replayed,
         }
     }
 }
@@ -137,17 +138,21 @@ fn every<T: Copy>(values: &[T], each: usize) -> Vec<T> {
 fn drawn(subject: &Subject, replay: &Replay) -> Figure {
     let held_out = if replay.is_held_out { ", held out of the fit" } else { "" };
     let title = format!("Dead reckoning of run {}{held_out}", replay.run);
-    let explanation = "Where the recorded track speeds alone lead, from the first observed pose \
-                       on: with the vehicle file as it is, and as the diagnosis corrects it, each \
-                       at the clock offset that suits its turning best.";
-    let mut figure = sheet::sheet("path", HEIGHT, &title, explanation, subject.caption);
-    let line = |entry: usize| Swatch::Line(entry_colour(entry), 5.0);
-    let entries = [
-        (Swatch::Line(INK, 8.0), "observed"),
-        (line(BEFORE), NAMES[BEFORE]),
-        (line(AFTER), NAMES[AFTER]),
-        (Swatch::ring(), "start"),
-    ];
+    let moves = |entry: &usize| !replay.replayed[*entry].is_empty();
+    let stops = [BEFORE, AFTER].into_iter().find(|entry| !moves(entry));
+    let stops = stops.map_or_else(String::new, |entry| {
+        format!(" The vehicle {} has no path: it tips over, or no forces balance.", NAMES[entry])
+    });
+    let explanation = format!(
+        "Where the recorded track speeds alone lead, from the first observed pose on: with the \
+         vehicle file as it is, and as the diagnosis corrects it, each at the clock offset that \
+         suits its turning best.{stops}"
+    );
+    let mut figure = sheet::sheet("path", HEIGHT, &title, &explanation, subject.caption);
+    let line = |entry: usize| (Swatch::Line(entry_colour(entry), 5.0), NAMES[entry]);
+    let models = [BEFORE, AFTER].into_iter().filter(moves).map(line);
+    let entries = std::iter::once((Swatch::Line(INK, 8.0), "observed"));
+    let entries = entries.chain(models).chain([(Swatch::ring(), "start")]);
     figure.legends.push(Legend::of_marks([158, sheet::TOP + 20], sheet::RIGHT, entries));
     figure.panels.push(paths(replay));
     let distance = |a: &Pose, b: &Pose| (a.x - b.x).hypot(a.y - b.y);

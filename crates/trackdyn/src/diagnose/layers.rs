@@ -102,7 +102,7 @@ impl Drive<'_> {
         self.stamp(sample.run, sample.start + sample.duration / 2.0)
     }
 
-    /// The robot as observed, as filed and as corrected.
+    /// The robot as observed, and as filed and as corrected where these have a motion.
     fn drivers(&self, filed: &VehicleFile, corrected: &VehicleFile) -> Vec<Driver> {
         let [_, base_frame] = &self.log.frames;
         let models = [("as filed", entry_colour(0)), ("corrected", entry_colour(1))];
@@ -113,11 +113,10 @@ impl Drive<'_> {
             motions: self.evidence.samples().iter().map(|of| replay::pose(&of.motion)).collect(),
             is_observed: true,
         };
-        let models = models.into_iter().zip([filed, corrected]).map(|(actor, file)| Driver {
-            frame: actor.frame().to_owned(),
-            motions: replay::motions(self.evidence, file),
-            is_observed: false,
-            actor,
+        let models = models.into_iter().zip([filed, corrected]).filter_map(|(actor, file)| {
+            let motions = replay::motions(self.evidence, file)?;
+            let frame = actor.frame().to_owned();
+            Some(Driver { frame, motions, is_observed: false, actor })
         });
         std::iter::once(observed).chain(models).collect()
     }

@@ -6,7 +6,7 @@ group! {
     /// How a hypothesis predicts motion.
     Mechanics {
         /// Part of the speeds that may have no motion.
-        max_unsolved_share: f64 = 0.2, "", [0.0, 1.0],
+        max_unsolved_share: f64 = 0.2, "", [0.0, 0.5],
             "Nobody drives the table's corners.",
             "Lower: high robots lose hypotheses; higher: tipping ones are fitted.";
         /// Largest speed over the recorded one.

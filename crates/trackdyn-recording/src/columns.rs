@@ -115,8 +115,14 @@ impl Key {
             Self::Yaw if name == COMPASS => Some(Unit::Compass),
             Self::Yaw => factor(&ANGLES),
             Self::Gyro => factor(&RATES),
-            Self::Nanoseconds | Self::Latitude | Self::Longitude => None,
-            Self::Qx | Self::Qy | Self::Qz | Self::Qw | Self::Run => None,
+            Self::Nanoseconds
+            | Self::Latitude
+            | Self::Longitude
+            | Self::Qx
+            | Self::Qy
+            | Self::Qz
+            | Self::Qw
+            | Self::Run => None,
         }
     }
 }

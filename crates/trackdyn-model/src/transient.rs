@@ -6,7 +6,7 @@
 //! always the stationary one.
 //!
 //! # Tipping
-//! A simulation stops where the load lies outside the contact for [`FALL`]. Until then one side
+//! A simulation stops where the load lies outside the contact for 0.3 s. Until then one side
 //! bears all of it, and the other none.
 //!
 //! # Stick and slip

@@ -47,7 +47,7 @@ def told():
 def diagnosis(model, told):
     """A short drive of a robot whose lugs grip better one way than its model knows."""
     lugs = model.with_effect("directional-lugs", excess=0.15)
-    log = td.simulate(lugs, runs=1, duration=25.0, sensors="perfect", seed=3).recording
+    log = td.simulate(lugs, runs=1, duration=25.0, seed=3).recording
     progress = lambda *at: told.append(at)  # noqa: E731
     settings = {"verdict": {"max_p": 0.008}}
     return td.diagnose(

@@ -11,7 +11,10 @@ import trackdyn as td
 
 
 def test_it_names_what_is_missing(diagnosis, told):
-    assert diagnosis.status == "explained", repr(diagnosis)
+    # the poses of a laboratory are 0.03 s late, which 25 s hardly tell from a lag of the belts
+    late = [claim for claim in diagnosis.claims if "time-offset" in claim.one_of]
+    assert [claim.effect for claim in diagnosis.claims if claim not in late] == ["directional-lugs"]
+    assert [size.low < 0.03 < size.high for claim in late for size in claim.sizes] == [True]
     named = {claim.effect: claim for claim in diagnosis.claims}
     size = named["directional-lugs"].sizes[0]
     assert size.name == "excess" and size.low <= size.value <= size.high

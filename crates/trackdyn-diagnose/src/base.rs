@@ -292,8 +292,8 @@ pub fn correct_constants(
     let wanted = own.map(|own| own + offset);
     let absorbed = wanted.and_then(|wanted| Calibration::Vehicle.absorbed(&from, wanted, &spin));
     let alone = || {
-        let left = Hypothesis { offset: offset.into(), ..hypothesis.clone() };
-        let calibrated = Calibration::Vehicle.calibrated(&left)?;
+        let rest = Hypothesis { offset: offset.into(), ..hypothesis.clone() };
+        let calibrated = Calibration::Vehicle.calibrated(&rest)?;
         Some(with_friction(&calibrated.vehicle, level - hypothesis.friction_level))
     };
     let absorbed = absorbed.map(|absorbed| absorbed.vehicle);

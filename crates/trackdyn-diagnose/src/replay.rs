@@ -13,9 +13,9 @@ use trackdyn_model::{Sensor, VehicleFile};
 /// turning best: the recording's own offset holds the time by which inertia answers, too.
 pub fn motions(evidence: &Evidence, file: &VehicleFile) -> Option<Vec<Pose>> {
     let hypothesis = Hypothesis::filed(file, &evidence.settings().prior);
-    let (mechanics, instruments) =
-        (Mechanics::new(&hypothesis, evidence), Instruments::of(&hypothesis));
-    mechanics.failure().is_none().then(|| by(&mechanics, &instruments, evidence))
+    let mechanics = Mechanics::new(&hypothesis, evidence);
+    let moves = mechanics.failure().is_none();
+    moves.then(|| by(&mechanics, &Instruments::of(&hypothesis), evidence))
 }
 
 fn by(mechanics: &Mechanics, instruments: &Instruments, evidence: &Evidence) -> Vec<Pose> {

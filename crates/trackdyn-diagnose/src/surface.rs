@@ -206,12 +206,16 @@ impl Solved {
             (0..Grid::NODES).into_par_iter().step_by(SAMPLED).map(solved).collect();
         let without = sample.iter().filter(|(node, _)| node.is_none()).count();
         let is_hopeless = real(without) > HOPELESS * real(sample.len());
-        let rest = |index: usize| match sample.get(index / SAMPLED) {
-            Some(known) if index.is_multiple_of(SAMPLED) => *known,
-            _ if is_hopeless => (None, None),
-            _ => solved(index),
+        let node = |index: usize| {
+            if index.is_multiple_of(SAMPLED) {
+                sample[index / SAMPLED]
+            } else if is_hopeless {
+                (None, None)
+            } else {
+                solved(index)
+            }
         };
-        let (nodes, starts) = (0..Grid::NODES).into_par_iter().map(rest).unzip();
+        let (nodes, starts) = (0..Grid::NODES).into_par_iter().map(node).unzip();
         Self { nodes, starts }
     }
 }

@@ -54,6 +54,7 @@ const GROWTH: [f64; 2] = [0.3, 4.0];
 /// pendulum does, with √(h/g) = 0.3 s. A jolt of the track speeds lifts a side for less.
 const FALL: f64 = 0.3;
 
+/// Why a simulation stops then.
 const TIPS: &str = "the robot tips over: gentler changes of speed, or a lower centre of gravity, \
                     keep it on the ground";
 
@@ -150,9 +151,7 @@ struct State {
     belt_speed: PerSide<f64>,
     /// Traction over normal load, forward positive, where belts slip on their sprockets; else zero.
     traction: PerSide<f64>,
-    /// Whether the resultant load lies outside the contact.
-    tips: bool,
-    /// Time for which it has, s.
+    /// Time for which the resultant load has lain outside the contact, s; zero where it does not.
     tipping: f64,
     /// Inverse Jacobian of the last balance.
     inverse: Inverse,
@@ -173,7 +172,6 @@ impl<'m> Transient<'m> {
             driven: still,
             belt_speed: still,
             traction: still,
-            tips: false,
             tipping: 0.0,
             inverse: Inverse::default(),
         };
@@ -243,7 +241,8 @@ impl<'m> Transient<'m> {
         }
         if halvings == MAX_HALVINGS {
             let unbalanced = "no motion balances the forces on the robot";
-            return Err(self.stopped(if self.state.tips { TIPS } else { unbalanced }));
+            let tips = self.state.tipping > 0.0;
+            return Err(self.stopped(if tips { TIPS } else { unbalanced }));
         }
         self.step(shown, f64::midpoint(self.state.t, end), halvings + 1)?;
         self.step(shown, end, halvings + 1)
@@ -304,8 +303,7 @@ impl<'m> Transient<'m> {
     /// Goes on to the end of a step with these stages.
     fn accept(&mut self, state: &State, stages: [Instant; 2]) {
         let duration = state.t - self.state.t;
-        let tipping = if state.tips { self.state.tipping + duration } else { 0.0 };
-        self.state = State { tipping, ..*state };
+        self.state = *state;
         if let Some(steps) = &mut self.steps {
             steps.push(Step { end: state.t, duration, stages });
         }
@@ -377,8 +375,9 @@ impl<'m> Transient<'m> {
         };
         let Balanced { motion, traction, inverse } = stage.solve(&start)?;
         let tips = self.model.support(&ground, &motion) == Support::Tips;
+        let tipping = if tips { self.state.tipping + after } else { 0.0 };
         let Motion { twist, belt_speed, .. } = motion;
-        Some(State { twist, driven, belt_speed, traction, tips, inverse, ..*before })
+        Some(State { twist, driven, belt_speed, traction, tipping, inverse, ..*before })
     }
 
     /// Whether forces other than friction depend on acceleration; otherwise the motion is always

@@ -8,6 +8,7 @@
 //! dates, or seconds with their nanoseconds in another column. Positions may be latitude and
 //! longitude. A row of units may follow the header.
 
+use crate::table::Table;
 use crate::unit::SpeedUnit;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -82,6 +83,10 @@ const LENGTHS: [(&str, f64); 5] =
 const ANGLES: [(&str, f64); 2] = [("rad", 1.0), ("deg", TAU / 360.0)];
 const RATES: [(&str, f64); 2] = [("rad/s", 1.0), ("deg/s", TAU / 360.0)];
 
+/// The one unit of what a time has beside its seconds, and that of latitude and longitude, degrees.
+const NANOSECONDS: [(&str, f64); 1] = [("ns", 1.0)];
+const DEGREES: [(&str, f64); 1] = [("deg", 1.0)];
+
 /// The unit of headings of a compass: degrees clockwise from the y axis, which is north.
 const COMPASS: &str = "compass";
 
@@ -115,14 +120,9 @@ impl Key {
             Self::Yaw if name == COMPASS => Some(Unit::Compass),
             Self::Yaw => factor(&ANGLES),
             Self::Gyro => factor(&RATES),
-            Self::Nanoseconds
-            | Self::Latitude
-            | Self::Longitude
-            | Self::Qx
-            | Self::Qy
-            | Self::Qz
-            | Self::Qw
-            | Self::Run => None,
+            Self::Nanoseconds => factor(&NANOSECONDS),
+            Self::Latitude | Self::Longitude => factor(&DEGREES),
+            Self::Qx | Self::Qy | Self::Qz | Self::Qw | Self::Run => None,
         }
     }
 }
@@ -152,6 +152,12 @@ impl Columns {
     /// Whether they hold poses, be it a yaw alone.
     fn has_poses(&self) -> bool {
         POSE.iter().any(|key| self.columns.contains_key(key))
+    }
+
+    /// The place of a key in a table, and its column.
+    fn at(&self, key: Key, table: &Table) -> Option<(usize, &Column)> {
+        let column = self.columns.get(&key)?;
+        Some((table.column(&column.name)?, column))
     }
 }
 

@@ -129,6 +129,16 @@ fn nanoseconds_stand_apart_and_positions_may_be_degrees() {
         read(&path, text, &TableOptions::default())
     };
     assert_is_truth_to(1e-7, &read(10.0).expect("readable"));
+    // a sign is reversed, and a row of units counts
+    let (_place, path) =
+        table("sec,nanosec,l,r,lat,lon,yaw\ns,ns,m/s,m/s,deg,deg,rad", |row, _| {
+            let [t, l, r, x, y, yaw] = row;
+            let [south, east] = [-y / BY_LATITUDE, 10.0 + x / BY_LONGITUDE];
+            format!("{t},0,{l},{r},{south},{east},{yaw}")
+        });
+    let text = text.replace("lat=", "lat=-");
+    let found = super::columns::read(&path, &text, &TableOptions::default());
+    assert_is_truth_to(1e-7, &found.expect("readable"));
     let far = read(181.0).expect_err("no such longitude").to_string();
     assert!(far.contains("expected a longitude between -180 and 180 degrees"), "{far}");
 }

@@ -1,6 +1,6 @@
 //! Positions of a table: metres, or latitude and longitude.
 
-use super::{Column, Columns, Key, Unit};
+use super::{Columns, Key, Unit};
 use crate::table::Table;
 use crate::wgs84::east_north;
 use crate::{Error, PoseUnit};
@@ -15,28 +15,24 @@ pub(super) enum Places {
     None,
     /// Columns of x and y, with metres per number.
     Metres([(usize, f64); 2]),
-    /// Columns of latitude and longitude, degrees. Their first place is the origin.
-    Degrees { columns: [usize; 2], origin: Option<[f64; 3]> },
+    /// Columns of latitude and longitude, with degrees per number. Their first place is the origin.
+    Degrees { columns: [(usize, f64); 2], origin: Option<[f64; 3]> },
 }
 
 impl Places {
     /// The columns of a table; `open` is the unit of x and y that have none.
     pub(super) fn of(table: &Table, columns: &Columns, open: PoseUnit) -> Self {
-        let at = |key: Key| {
-            let column = columns.columns.get(&key)?;
-            Some((table.column(&column.name)?, column))
+        let at = |key: Key, open: f64| {
+            let (place, column) = columns.at(key, table)?;
+            let open = if column.unit == Unit::Open { open } else { 1.0 };
+            Some((place, open * column.factor()))
         };
-        let metres = |(place, column): (usize, &Column)| {
-            let open = if column.unit == Unit::Open { open.factor() } else { 1.0 };
-            (place, open * column.factor())
-        };
-        if let Some((x, y)) = at(Key::X).zip(at(Key::Y)) {
-            return Self::Metres([metres(x), metres(y)]);
+        let both = |[first, second]: [Key; 2], open| Some([at(first, open)?, at(second, open)?]);
+        if let Some(columns) = both([Key::X, Key::Y], open.factor()) {
+            return Self::Metres(columns);
         }
-        match at(Key::Latitude).zip(at(Key::Longitude)) {
-            Some(((latitude, _), (longitude, _))) => {
-                Self::Degrees { columns: [latitude, longitude], origin: None }
-            }
+        match both([Key::Latitude, Key::Longitude], 1.0) {
+            Some(columns) => Self::Degrees { columns, origin: None },
             None => Self::None,
         }
     }
@@ -50,8 +46,8 @@ impl Places {
                 Ok([*of_x * table.number(*x)?, *of_y * table.number(*y)?])
             }
             Self::Degrees { columns: [latitude, longitude], origin } => {
-                let within = |column: usize, most: f64, expected: &'static str| {
-                    let degrees = table.number(column)?;
+                let within = |(column, factor): (usize, f64), most: f64, expected: &'static str| {
+                    let degrees = factor * table.number(column)?;
                     let is_beyond = degrees.abs() > most;
                     if is_beyond { Err(table.cell_error(column, expected)) } else { Ok(degrees) }
                 };

@@ -74,19 +74,14 @@ fn rows(
     scales: [f64; 2],
     options: &TableOptions,
 ) -> Result<Vec<UncheckedRun>, Error> {
-    let at = |key: Key| {
-        let column = columns.columns.get(&key)?;
-        Some((table.column(&column.name)?, column))
-    };
-    let [left, right, yaw] = [Key::Left, Key::Right, Key::Yaw].map(at);
-    let [seconds, nanoseconds] = [Key::Time, Key::Nanoseconds].map(at);
+    let at = |key: Key| columns.at(key, table);
+    let [left, right] = [Key::Left, Key::Right].map(|key| at(key).map(|(place, _)| place));
+    let [seconds, nanoseconds] = [Key::Time, Key::Nanoseconds]
+        .map(|key| at(key).map(|(place, column)| (place, column.factor())));
     let quaternion = [Key::Qx, Key::Qy, Key::Qz, Key::Qw].map(at);
     let run = at(Key::Run).map(|(place, _)| place);
-    let [left, right] = [left, right].map(|of| of.map(|(place, _)| place));
-    let time = seconds.map(|(place, column)| (place, column.factor()));
-    let nanoseconds = nanoseconds.map(|(place, _)| place);
     let mut places = Places::of(table, columns, options.pose_unit);
-    let yaw = yaw.map(|(place, column)| (place, column.unit, column.factor()));
+    let yaw = at(Key::Yaw).map(|(place, column)| (place, column.unit, column.factor()));
     let quaternion = quaternion.map(|of| of.map(|(place, column)| (place, column.sign)));
     let gyroscope = at(Key::Gyro).map(|(place, column)| {
         let is_open = column.unit == Unit::Open;
@@ -100,15 +95,17 @@ fn rows(
         let number = |place: Option<usize>| place.map_or(Ok(f64::NAN), |at| table.number(at));
         let id = run.map_or(Ok(0), |at| table.integer(at))?;
         let of_run = runs.entry(id).or_insert_with(|| UncheckedRun { id, ..Default::default() });
-        let stamp = match time {
+        let stamp = match seconds {
             Some((at, _)) if table.value(at).is_none() => {
                 times.read(table.cell(at)).ok_or_else(|| table.cell_error(at, TIME))?
             }
             Some((at, factor)) => factor * table.number(at)?,
             None => f64::NAN,
         };
-        let beside = nanoseconds.map_or(Ok(0.0), |at| table.number(at))?;
-        let stamp = stamp + 1e-9 * beside;
+        let stamp = match nanoseconds {
+            Some((at, factor)) => stamp + 1e-9 * factor * table.number(at)?,
+            None => stamp,
+        };
         let [v_left, v_right] = [number(left)?, number(right)?];
         if !(v_left.is_nan() && v_right.is_nan()) {
             let (v_left, v_right) = (scales[0] * v_left, scales[1] * v_right);

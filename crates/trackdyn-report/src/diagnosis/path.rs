@@ -139,10 +139,16 @@ fn drawn(subject: &Subject, replay: &Replay) -> Figure {
     let held_out = if replay.is_held_out { ", held out of the fit" } else { "" };
     let title = format!("Dead reckoning of run {}{held_out}", replay.run);
     let moves = |entry: &usize| !replay.replayed[*entry].is_empty();
-    let stops = [BEFORE, AFTER].into_iter().find(|entry| !moves(entry));
-    let stops = stops.map_or_else(String::new, |entry| {
-        format!(" The vehicle {} has no path: it tips over, or no forces balance.", NAMES[entry])
-    });
+    let stops: Vec<&str> = [BEFORE, AFTER]
+        .into_iter()
+        .filter(|entry| !moves(entry))
+        .map(|entry| NAMES[entry])
+        .collect();
+    let stops = if stops.is_empty() {
+        String::new()
+    } else {
+        format!(" The vehicle {} tips over, or no forces balance.", stops.join(" and "))
+    };
     let explanation = format!(
         "Where the recorded track speeds alone lead, from the first observed pose on: with the \
          vehicle file as it is, and as the diagnosis corrects it, each at the clock offset that \
@@ -200,8 +206,39 @@ fn errors(
         let line = Line { points, thickness: 4.0, colour: entry_colour(entry) };
         panel.show_as(NAMES[entry], line);
     }
-    let last = errors.each_ref().map(|errors| errors.last().copied().unwrap_or(0.0));
-    let [filed, corrected] = last.map(|error| number(error, 2));
-    panel.remark = format!("at the end {filed} {unit} as filed, {corrected} {unit} corrected");
+    let last = NAMES.iter().zip(&errors).filter_map(|(name, errors)| {
+        let last = errors.last()?;
+        Some(format!("{} {unit} {name}", number(*last, 2)))
+    });
+    let last: Vec<String> = last.collect();
+    if !last.is_empty() {
+        panel.remark = format!("at the end {}", last.join(", "));
+    }
     panel
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An error of zero would be that of a perfect vehicle.
+    #[test]
+    fn a_vehicle_without_a_path_has_no_error() {
+        let path = [0.0, 1.0].map(|x| Pose::new(x, 0.0, 0.0)).to_vec();
+        let replay = |replayed| Replay {
+            run: 0,
+            is_held_out: false,
+            times: vec![0.0, 1.0],
+            observed: [0.0, 1.5].map(|x| Pose::new(x, 0.0, 0.0)).to_vec(),
+            replayed,
+        };
+        let remark = |replayed| {
+            let far = |a: &Pose, b: &Pose| (a.x - b.x).abs();
+            errors(ERRORS[0], ["Error of place", "m"], &replay(replayed), far).remark
+        };
+        let both = remark([path.clone(), path.clone()]);
+        assert_eq!(both, "at the end 0.50 m as filed, 0.50 m corrected");
+        assert_eq!(remark([Vec::new(), path]), "at the end 0.50 m corrected");
+        assert_eq!(remark([Vec::new(), Vec::new()]), "");
+    }
 }

@@ -186,7 +186,7 @@ fn the_origin_of_time_says_nothing() {
 
 #[test]
 fn a_drift_with_time_is_found_whatever_time_counts_from() {
-    const CONCEALED: [&str; 1] = ["friction-drift:rate_1_per_s=0.004"];
+    const CONCEALED: [&str; 1] = ["friction-drift:rate_1_per_s=0.0006"];
     let recording = drive(&CONCEALED, 6, 3);
     let file = owned(&CONCEALED);
     let one = diagnosed(&recording, &file);

@@ -6,6 +6,7 @@
 //! besides its size, several variants are tried, and the best one stands for the effect.
 
 mod between;
+mod driven;
 mod places;
 
 use crate::evidence::Evidence;
@@ -14,6 +15,7 @@ use crate::mechanics::{Instruments, Mechanics, is_instrument};
 use crate::prior::area;
 use crate::progress::Cancelled;
 use crate::weighted::Weighted;
+use driven::Driven;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -188,12 +190,13 @@ fn choices(parameter: &Parameter, of: &Card, evidence: &Evidence) -> Vec<f64> {
         }
         Role::Shape => shapes(parameter, settings.shape_ratio),
         Role::Time => {
-            let [middle, half] = area(evidence, parameter.role);
+            let driven = Driven::of(evidence);
+            let half = driven.whole() / 2.0;
             // A single change before or after the recording changes nothing in it.
             let times = of.parameters.iter().filter(|one| one.role == Role::Time).count();
             let is_tried = |time: &f64| times > 1 || time.abs() < 1.0;
             let tried = settings.times.into_iter().filter(is_tried);
-            tried.map(|time| inside(middle + time * half)).collect()
+            tried.map(|time| inside(driven.clock(half + time * half))).collect()
         }
         Role::Place { .. } if of.has_extent() => vec![parameter.typical],
         Role::Place { .. } => {
@@ -219,7 +222,7 @@ fn shapes(parameter: &Parameter, ratio: f64) -> Vec<f64> {
 }
 
 /// Distance between values that are tried; for a place, its extent where it has one; for a shape,
-/// in its logarithm.
+/// in its logarithm; for a time, in that which was driven.
 fn spacing(parameter: &Parameter, extent: Option<f64>, evidence: &Evidence) -> f64 {
     match parameter.role {
         Role::Size { .. } => 0.0,
@@ -227,7 +230,7 @@ fn spacing(parameter: &Parameter, extent: Option<f64>, evidence: &Evidence) -> f
         Role::Shape => evidence.settings().candidates.shape_ratio.ln(),
         Role::Time => {
             let [earlier, later, ..] = evidence.settings().candidates.times;
-            (later - earlier) * area(evidence, parameter.role)[1]
+            (later - earlier) * Driven::of(evidence).whole() / 2.0
         }
         Role::Place { .. } => extent.unwrap_or_else(|| area(evidence, parameter.role)[1]),
     }

@@ -14,7 +14,7 @@ mod waves;
 
 pub use contrasts::{Manoeuvre, Scales, contrasts, contrasts_within};
 pub use departures::Contrasts;
-pub use waves::Wave;
+pub use waves::{Along, Wave};
 
 use crate::equations::{Equations, Stack};
 use crate::evidence::{Evidence, Sample};
@@ -29,7 +29,7 @@ use crate::weighted::Weighted;
 use nalgebra::Vector3;
 use trackdyn_core::real;
 use trackdyn_model::effect::Symmetry;
-use waves::strongest_wave;
+use waves::KINDS;
 
 /// Jacobian of a prediction by x_l, x_r and y, not whitened.
 pub type IcrColumns = [Vec<Vector3<f64>>; 3];
@@ -65,9 +65,9 @@ pub struct Location {
     pub channels: [f64; 3],
     /// Tests of all symmetries for which this evidence has contrasts.
     pub tests: Vec<SymmetryTest>,
-    /// The most significant wave of the ground, where it breaks the symmetry of places more than
-    /// any plainer contrast.
-    pub wave: Option<Wave>,
+    /// The most significant wave of each kind, where it breaks its symmetry more than any plainer
+    /// contrast.
+    pub waves: Vec<Wave>,
     /// Chi-squared explained by all contrasts jointly, minus its degrees of freedom.
     pub explicable: f64,
     /// Largest family-wise p of a broken symmetry, and of one that a corrected model leaves broken.
@@ -126,32 +126,38 @@ impl Residual<'_> {
             excess_over_noise: excess(evidence, residual),
             channels: channel_shares(evidence, residual),
             tests,
-            wave: None,
+            waves: Vec::new(),
             explicable: all.first().map_or(0.0, |all| all.statistic - real(all.degrees)),
             max_p: [settings.max_p, settings.max_p_left_over],
         }
     }
 
-    /// Tests all symmetries, and waves of the ground as the strictest test of places.
+    /// Tests all symmetries, and waves as the strictest tests of some.
     pub fn locate_in_waves(&self, resampling: Resampling) -> Location {
         let mut location = self.locate(resampling);
         let Self { evidence, fit, icrs, .. } = *self;
-        let strongest = |beside: &[Vec<Vector3<f64>>]| {
-            let wave = strongest_wave(evidence, &fit.residual, beside, icrs, resampling);
-            wave.filter(|wave| wave.test.p < location.max_p[0])
+        let plainer = || {
+            let plainer = contrasts(evidence, icrs).into_iter();
+            let plainer = plainer.flat_map(|contrasts| contrasts.columns);
+            plainer.map(|column| evidence.white(column))
         };
-        // A plainer contrast shows in some waves too, and more so in the best of many by chance.
-        let wave = strongest(&fit.columns).and_then(|_| {
-            let plainer =
-                contrasts(evidence, icrs).into_iter().flat_map(|contrasts| contrasts.columns);
-            let plainer = plainer.map(|column| evidence.white(column));
-            strongest(&fit.columns.iter().cloned().chain(plainer).collect::<Vec<_>>())
-        });
-        let place = location.tests.iter_mut().find(|test| test.symmetry == Symmetry::Place);
-        let stronger = wave.zip(place).filter(|(wave, place)| wave.test.is_stronger(&place.test));
-        if let Some((wave, place)) = stronger {
-            place.test = wave.test;
-            location.wave = Some(wave);
+        for waves in KINDS.iter().filter_map(|kind| kind(evidence, fit, icrs)) {
+            let strongest = |beside: &[Vec<Vector3<f64>>]| {
+                let wave = waves.strongest(&fit.residual, beside, resampling);
+                wave.filter(|wave| wave.test.p < location.max_p[0])
+            };
+            // A plainer contrast shows in some waves too, and more so in the best of many by
+            // chance.
+            let wave = strongest(&fit.columns).and_then(|_| {
+                strongest(&fit.columns.iter().cloned().chain(plainer()).collect::<Vec<_>>())
+            });
+            let Some(wave) = wave else { continue };
+            let same = |test: &&mut SymmetryTest| test.symmetry == wave.along.symmetry();
+            let plain = location.tests.iter_mut().find(same);
+            if let Some(plain) = plain.filter(|plain| wave.test.is_stronger(&plain.test)) {
+                plain.test = wave.test;
+                location.waves.push(wave);
+            }
         }
         location
     }

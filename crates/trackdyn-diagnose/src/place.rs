@@ -2,7 +2,7 @@
 
 use crate::base::Base;
 use crate::evidence::Sample;
-use crate::locate::{Location, Manoeuvre, Wave};
+use crate::locate::{Along, Location, Manoeuvre, Wave};
 use crate::settings;
 use crate::weighted::Weighted;
 use nalgebra::Vector3;
@@ -27,10 +27,13 @@ pub fn words(symmetry: Symmetry, location: &Location) -> String {
             "straight driving is not straight, or not as fast as the encoders say"
         }
     };
-    match location.wave.filter(|_| symmetry == Symmetry::Place) {
-        Some(Wave { length, direction, .. }) => {
+    match location.waves.iter().find(|wave| wave.along.symmetry() == symmetry) {
+        Some(Wave { length, along: Along::Ground { direction }, .. }) => {
             let direction = direction.to_degrees();
             format!("{words}, in waves {length:.2} m long that run at {direction:.0} deg")
+        }
+        Some(Wave { length, along: Along::Belts, .. }) => {
+            format!("{words}, as belts or sprockets that come round every {length:.2} m")
         }
         None => words.to_owned(),
     }

@@ -67,7 +67,7 @@ pub fn test(
 
 /// Tests groups as one family.
 pub fn test_family(groups: &[Group], resampling: Resampling) -> Vec<Test> {
-    let blocks = groups.iter().map(|group| group.remainders.ncols()).max().unwrap_or_default();
+    let blocks = groups.iter().map(Group::blocks).max().unwrap_or_default();
     let observed: Vec<f64> = groups.iter().map(Group::observed).collect();
     let largest: Vec<f64> = (0..resampling.draws)
         .into_par_iter()
@@ -93,16 +93,16 @@ pub fn test_family(groups: &[Group], resampling: Resampling) -> Vec<Test> {
         .collect()
 }
 
-/// Scores of a group of columns, in orthonormal axes of their information.
+/// Scores of a group of columns, in parts of the evidence that have sizes of their own.
 pub struct Group {
-    /// Sum over the blocks.
-    score: DVector<f64>,
-    /// Jackknifed score of each block, one column per block.
-    remainders: DMatrix<f64>,
+    parts: Vec<Part>,
     /// Dispersion c ≥ 1.
     dispersion: f64,
     degrees: usize,
 }
+
+/// Products of columns with the residual, and with each other, in a block.
+pub type Products = (DVector<f64>, DMatrix<f64>);
 
 impl Group {
     /// Scores of columns with the base projected out.
@@ -116,15 +116,67 @@ impl Group {
             });
             (score, information)
         });
-        Self::of(&blocks.collect::<Vec<_>>(), settings)
+        Self::of_parts(&[(0, blocks.collect())], settings)
     }
 
-    /// Scores from blocks: products of the columns with the residual, and with each other.
-    pub fn of(blocks: &[(DVector<f64>, DMatrix<f64>)], settings: &settings::Location) -> Self {
+    /// Scores from parts: their first block, and the products of each of their blocks.
+    pub fn of_parts(parts: &[(usize, Vec<Products>)], settings: &settings::Location) -> Self {
+        let part = |(first, blocks): &(usize, Vec<Products>)| Part::of(*first, blocks, settings);
+        let parts: Vec<Part> = parts.iter().map(part).collect();
+        let degrees: usize = parts.iter().map(|part| part.score.len()).sum();
+        // c = Σ |ũ_b|²/k
+        let squares: f64 = parts.iter().map(|part| part.remainders.norm_squared()).sum();
+        let dispersion = (squares / real(degrees.max(1))).max(1.0);
+        Self { parts, dispersion, degrees }
+    }
+
+    /// Number of blocks.
+    fn blocks(&self) -> usize {
+        self.parts.last().map_or(0, |part| part.first + part.remainders.ncols())
+    }
+
+    fn observed(&self) -> f64 {
+        self.parts.iter().map(|part| part.score.norm_squared()).sum()
+    }
+
+    fn statistic(&self, signs: &DVector<f64>) -> f64 {
+        let of = |part: &Part| {
+            let signs = signs.rows(part.first, part.remainders.ncols());
+            (&part.remainders * signs).norm_squared()
+        };
+        self.parts.iter().map(of).sum()
+    }
+
+    /// Transforms χ² over the dispersion to an approximately standard normal score.
+    ///
+    /// # Sources
+    /// Wilson, Hilferty, Proceedings of the National Academy of Sciences 17(12), 1931.
+    fn normal_score(&self, statistic: f64) -> f64 {
+        if self.degrees == 0 {
+            return f64::NEG_INFINITY;
+        }
+        let variance = 2.0 / (9.0 * real(self.degrees));
+        ((statistic / self.dispersion / real(self.degrees)).cbrt() - (1.0 - variance))
+            / variance.sqrt()
+    }
+}
+
+/// Scores in neighbouring blocks, in orthonormal axes of the columns' information there.
+struct Part {
+    /// Index of the first block.
+    first: usize,
+    /// Sum over the blocks.
+    score: DVector<f64>,
+    /// Jackknifed score of each block, one column per block.
+    remainders: DMatrix<f64>,
+}
+
+impl Part {
+    fn of(first: usize, blocks: &[Products], settings: &settings::Location) -> Self {
         let count = blocks.first().map_or(0, |(score, _)| score.len());
         if count == 0 {
             let remainders = DMatrix::zeros(0, blocks.len());
-            return Self { score: DVector::zeros(0), remainders, dispersion: 1.0, degrees: 0 };
+            return Self { first, score: DVector::zeros(0), remainders };
         }
         let information =
             blocks.iter().fold(DMatrix::zeros(count, count), |sum, (_, one)| sum + one);
@@ -152,31 +204,7 @@ impl Group {
             let left = left_beside(own, &information, &score, settings.score_ridge);
             remainders.set_column(block, &left);
         }
-        // c = Σ |ũ_b|²/k
-        let squares = remainders.norm_squared();
-        let dispersion = (squares / real(kept.len().max(1))).max(1.0);
-        Self { score, remainders, dispersion, degrees: kept.len() }
-    }
-
-    fn observed(&self) -> f64 {
-        self.score.norm_squared()
-    }
-
-    fn statistic(&self, signs: &DVector<f64>) -> f64 {
-        (&self.remainders * signs).norm_squared()
-    }
-
-    /// Transforms χ² over the dispersion to an approximately standard normal score.
-    ///
-    /// # Sources
-    /// Wilson, Hilferty, Proceedings of the National Academy of Sciences 17(12), 1931.
-    fn normal_score(&self, statistic: f64) -> f64 {
-        if self.degrees == 0 {
-            return f64::NEG_INFINITY;
-        }
-        let variance = 2.0 / (9.0 * real(self.degrees));
-        ((statistic / self.dispersion / real(self.degrees)).cbrt() - (1.0 - variance))
-            / variance.sqrt()
+        Self { first, score, remainders }
     }
 }
 
@@ -248,10 +276,11 @@ mod tests {
         let information =
             DMatrix::from_row_slice(3, 3, &[1.0, 0.0, 0.5, 0.0, -1e-13, 0.0, 0.5, 0.0, 1.0]);
         let block = (DVector::from_vec(vec![0.5, 1e-13, 0.2]), information);
-        let group = Group::of(&vec![block; 4], settings);
+        let group = Group::of_parts(&[(0, vec![block; 4])], settings);
         assert_eq!(group.degrees, 2);
         assert!(group.observed() < 10.0, "{}", group.observed());
-        let none = Group::of(&vec![(DVector::zeros(0), DMatrix::zeros(0, 0)); 4], settings);
+        let empty = (DVector::zeros(0), DMatrix::zeros(0, 0));
+        let none = Group::of_parts(&[(0, vec![empty; 4])], settings);
         assert_eq!((none.degrees, none.observed()), (0, 0.0));
     }
 

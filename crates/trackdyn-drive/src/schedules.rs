@@ -52,6 +52,9 @@ pub fn as_commanded(schedule: &Schedule, path: &Trajectory) -> Trajectory {
     commanded
 }
 
+/// Time between two runs that are generated, s.
+const PAUSE: f64 = 5.0;
+
 /// Schedules that can be generated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -99,7 +102,8 @@ impl ScheduleKind {
         }
     }
 
-    /// The schedules, run by run; each depends on the options and its own number only.
+    /// The schedules, run by run, one after the other by one clock; each depends on the options and
+    /// its own number only, but for the time at which it begins.
     ///
     /// # Errors
     /// [`Error::Option`].
@@ -123,10 +127,10 @@ impl ScheduleKind {
             ScheduledRun { id, schedule }
         };
         let mut generated = Vec::new();
-        let mut commands = 0;
+        let (mut commands, mut begin) = (0, 0.0);
         for id in first..first.saturating_add(runs) {
-            let run = run(id);
-            commands += run.schedule.commands().len();
+            let ScheduledRun { id, schedule } = run(id);
+            commands += schedule.commands().len();
             if commands > MAX_COMMANDS {
                 let expected = format!(
                     "runs of {MAX_COMMANDS} commands together, which memory holds; run {id} goes \
@@ -134,7 +138,9 @@ impl ScheduleKind {
                 );
                 return Err(Error::option("runs", &runs, expected));
             }
-            generated.push(run);
+            let schedule = schedule.later(begin);
+            begin = schedule.span()[1] + PAUSE;
+            generated.push(ScheduledRun { id, schedule });
         }
         Ok(generated)
     }

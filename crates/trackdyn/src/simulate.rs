@@ -17,10 +17,10 @@ use rayon::prelude::*;
 use std::path::Path;
 use trackdyn_core::{PerSide, Pose, Trajectory};
 use trackdyn_drive::schedules::{self, ScheduleOptions, ScheduledRun, as_commanded};
-use trackdyn_drive::sensors::{Preset, Sensors, Views};
+use trackdyn_drive::sensors::{PoseFrame as SensorFrame, Preset, Sensors, Views};
 use trackdyn_drive::{Error as DrivingError, truth};
 use trackdyn_model::{Circumstance, Stationary, Transient};
-use trackdyn_recording::{Recording as Recorded, Source, UncheckedRun, folder};
+use trackdyn_recording::{PoseFrame, Recording as Recorded, Source, UncheckedRun, folder};
 
 /// Name of the document that every simulation writes.
 const FILE: &str = "simulation.toml";
@@ -133,7 +133,8 @@ impl Prepared {
         let robot = self.vehicle.name();
         let observed = runs.iter().map(|run| run.observed.clone()).collect();
         let name = format!("simulated {robot}");
-        let recorded = Recorded::new(name, robot, observed, Source::computed(), Vec::new())?;
+        let recorded = Recorded::new(name, robot, observed, Source::computed(), Vec::new())?
+            .with_pose_frame(self.pose_frame());
         let paths = runs.into_iter().map(|run| (run.id, run.path)).collect();
         Ok(Simulation {
             recording: recorded.clone().into(),
@@ -143,6 +144,13 @@ impl Prepared {
             mechanisms: ground.mechanisms(),
             made_from: self.clone(),
         })
+    }
+
+    /// The frame that all poses share: runs begin at one pose, so that their first poses stand in
+    /// one frame. None where each has one of its own, which is to be found.
+    fn pose_frame(&self) -> Option<PoseFrame> {
+        let is_own = self.settings.sensors.pose.frame == SensorFrame::Random;
+        (!is_own).then_some(PoseFrame::World)
     }
 }
 

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::ground::{Driven, seen};
 use crate::instruments::Instruments;
 use trackdyn_core::rounding::Digits;
-use trackdyn_recording::{Recording, Source, StatedNoise, UncheckedRun};
+use trackdyn_recording::{PoseFrame, Recording, Source, StatedNoise, UncheckedRun};
 
 /// Digits of every number of a recording: to a micrometre, to a microsecond.
 const DIGITS: Digits = Digits::Decimals(6);
@@ -19,6 +19,7 @@ pub(crate) fn recorded(
     let mut runs = seen(driven, &instruments.sensors, noise)?;
     runs.iter_mut().for_each(round);
     let recording = Recording::new(name, "robot", runs, Source::computed(), Vec::new())?;
+    let recording = recording.with_pose_frame(Some(PoseFrame::World));
     Ok(recording.with_stated_noise(Some(rounded(instruments.stated))))
 }
 

@@ -1,5 +1,6 @@
 //! Refinement of places, directions and shapes between the values that are tried.
 
+use super::driven::Driven;
 use super::places::extent;
 use super::{Beside, Signature, Variant, spacing};
 use rayon::prelude::*;
@@ -13,7 +14,14 @@ impl Variant {
         let by = share * spacing(card, extent(of, &self.values), beside.evidence) / 2.0;
         let mut moved = self.clone();
         let value = &mut moved.values[parameter];
-        *value = if card.role == Role::Shape { *value * by.exp() } else { *value + by };
+        *value = match card.role {
+            Role::Shape => *value * by.exp(),
+            Role::Time => {
+                let driven = Driven::of(beside.evidence);
+                driven.clock(driven.at(*value) + by)
+            }
+            _ => *value + by,
+        };
         *value = value.clamp(card.range[0], card.range[1]);
         moved
     }
@@ -21,8 +29,8 @@ impl Variant {
 
 impl Beside<'_> {
     /// The variant near `start` with the largest gain, and its signatures, by pattern search: steps
-    /// to both sides in each shape, direction and place, halved where none improves. None where
-    /// `start` is the best.
+    /// to both sides in each shape, direction, place and time, halved where none improves. A time
+    /// is found to a sample: no fit crosses one. None where `start` is the best.
     pub fn between(
         &self,
         start: &Variant,
@@ -34,7 +42,15 @@ impl Beside<'_> {
         let others: Vec<usize> = others.collect();
         let (mut best, mut most, mut share) = (None, gain, 1.0);
         let settings = &self.evidence.settings().candidates;
-        for _ in 0..settings.refining_rounds {
+        let parameters = start.effect.card().parameters;
+        let time = others.iter().find(|&&one| parameters[one].role == Role::Time);
+        let least = time.map_or(settings.min_refining_step, |&time| {
+            let step = spacing(&parameters[time], None, self.evidence) / 2.0;
+            Driven::of(self.evidence).sample() / step
+        });
+        let mut left = settings.refining_rounds;
+        while share >= least && left > 0 {
+            left -= 1;
             let at = best.as_ref().map_or(start, |(variant, _)| variant);
             let steps =
                 others.iter().flat_map(|&parameter| [(parameter, share), (parameter, -share)]);
@@ -50,10 +66,12 @@ impl Beside<'_> {
                 Some((gain, variant)) if gain > most + settings.min_refining_gain => {
                     (best, most) = (Some(variant), gain);
                 }
-                _ => share /= 2.0,
-            }
-            if share < settings.min_refining_step {
-                break;
+                _ => {
+                    share /= 2.0;
+                    if time.is_some() {
+                        left = settings.refining_rounds;
+                    }
+                }
             }
         }
         best

@@ -10,9 +10,10 @@ use crate::resampling::Resampling;
 use crate::search::{Found, Known, Screened, Search};
 use crate::uncertainty::{Interval, Level, Uncertainty};
 use crate::verdict::{
-    Basis, Constants, Verdict, judge, judge_constants, judge_instruments, unless_unsure,
+    Basis, Constants, Refusal, Verdict, judge, judge_constants, judge_instruments, unless_unsure,
 };
 use crate::weighted::Weighted;
+use std::slice;
 use trackdyn_model::{EffectId, VehicleFile};
 
 /// A search with its verdicts.
@@ -74,6 +75,8 @@ impl Judged {
                 missing.push(Missing { kind, verdict, parameters });
             }
         }
+        // Whose place another took stands in a set with it.
+        refused.retain(|one| !missing.iter().any(|set| set.verdict.one_of.contains(&one.effect)));
         Ok(Self { search, screened, constants, best, friction_level, missing, refused })
     }
 
@@ -122,8 +125,8 @@ struct Physics {
 }
 
 impl Physics {
-    /// Backward elimination: while any claim is refused, the weakest refused effect is left out and
-    /// the others are judged again.
+    /// Backward elimination: while any claim is refused, the weakest refused effect is left out, or
+    /// another member of its set takes its place, and all are judged again.
     fn of(basis: &Basis, found: Found) -> Result<Self, Cancelled> {
         let Basis { search, constants, watch, .. } = *basis;
         // Effects that mostly act as constant ICRs are free in every hypothesis: they stay, even
@@ -153,10 +156,41 @@ impl Physics {
             };
             let weakest = verdicts.remove(place);
             watch.go_on()?;
-            best = search.without(&best, weakest.effect);
+            let without = search.without(&best, weakest.effect);
+            best = in_its_place(basis, &without, &weakest, &refused)?.unwrap_or(without);
             refused.push(weakest);
         }
     }
+}
+
+/// The hypothesis with the best other member of a set whose leader is refused for its numbers;
+/// none where the set has no other member that explains more than nothing.
+fn in_its_place(
+    basis: &Basis,
+    without: &Found,
+    leader: &Verdict,
+    refused: &[Verdict],
+) -> Result<Option<Found>, Cancelled> {
+    let Basis { search, constants, watch, .. } = *basis;
+    if !leader.refused.as_ref().is_some_and(Refusal::is_of_numbers) {
+        return Ok(None);
+    }
+    let is_other = |one: &&Screened| {
+        one.effect != leader.effect
+            && leader.one_of.contains(&one.effect)
+            && !constants.mostly.contains(&one.effect)
+            && !refused.iter().any(|other| other.effect == one.effect)
+    };
+    let mut best: Option<Found> = None;
+    for one in search.screen(without).iter().filter(is_other) {
+        watch.go_on()?;
+        let found = search.refit(without, slice::from_ref(one));
+        let least = best.as_ref().unwrap_or(without).ln_evidence;
+        if found.ln_evidence > least {
+            best = Some(found);
+        }
+    }
+    Ok(best)
 }
 
 /// The effects that are not refused.

@@ -1,130 +1,100 @@
-//! Contrasts that vary with the place: waves of the ground.
-//!
-//! # Law
-//! Any dependence on place is a sum of waves. To first order a field φ of the ground's friction
-//! moves half the distance of the ICRs with its value, and their middle and y with its gradient
-//! across and along the body:
-//!
-//! δh ∝ φ,  δa ∝ ∂φ/∂left,  δy ∝ ∂φ/∂forward,  φ = A cos k·p + B sin k·p
-//!
-//! so that each wave number k has six columns. Wave numbers are as dense as the driven area
-//! resolves, longest waves first.
+//! Residuals that come and go in waves: of the ground, and of the belts.
+
+mod belts;
+mod ground;
 
 use super::IcrColumns;
-use super::departures::middle_half_y;
-use crate::evidence::{Evidence, Sample};
+use crate::fit::Fit;
 use crate::resampling::Resampling;
 use crate::settings;
 use crate::significance::{Group, Test, test_family};
 use crate::weighted::Weighted;
 use faer::Mat;
-use nalgebra::{DMatrix, DVector, Vector2, Vector3};
+use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
-use std::f64::consts::{PI, TAU};
 use std::ops::Range;
-use trackdyn_core::real;
+use trackdyn_model::effect::Symmetry;
 
-/// A wave of the ground, with its test, family-wise over all waves.
+/// A wave, with its test, family-wise over all waves of its kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wave {
     /// Wavelength, m.
     pub length: f64,
-    /// Direction of the wave vector in the frame of the poses, rad, from −π/2 to π/2.
-    pub direction: f64,
+    /// What it runs along.
+    pub along: Along,
     /// Its test.
     pub test: Test,
 }
 
-/// The most significant wave in a residual, beside other columns that may explain it; none
-/// where samples share no world.
-///
-/// `residual` and the columns `beside` are whitened, `icrs` are not.
-pub fn strongest_wave(
-    evidence: &Weighted,
-    residual: &[Vector3<f64>],
-    beside: &[Vec<Vector3<f64>>],
-    icrs: &IcrColumns,
-    resampling: Resampling,
-) -> Option<Wave> {
-    if !evidence.has_world() {
-        return None;
-    }
-    let numbers = numbers(evidence);
-    let remainder = Remainder::new(evidence, residual, beside);
-    let departures = middle_half_y(icrs);
-    let groups: Vec<Group> = numbers
-        .par_iter()
-        .map(|number| {
-            let columns = columns(evidence, &departures, *number);
-            let columns = columns.map(|column| evidence.white(column));
-            remainder.group(&columns, &evidence.settings().location)
-        })
-        .collect();
-    let tests = test_family(&groups, resampling);
-    let waves = numbers.into_iter().zip(tests).map(|(number, test)| Wave {
-        length: TAU / number.norm(),
-        direction: (number.y / number.x).atan(),
-        test,
-    });
-    waves.reduce(|best, wave| if wave.test.is_stronger(&best.test) { wave } else { best })
+/// What a wave runs along.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Along {
+    /// The ground.
+    Ground {
+        /// Direction of the wave vector in the frame of the poses, rad, from −π/2 to π/2.
+        direction: f64,
+    },
+    /// The way of the belts, as the encoders show it.
+    Belts,
 }
 
-/// Wave vectors k, rad/m, one of each pair ±k, longest waves first.
-fn numbers(evidence: &Evidence) -> Vec<Vector2<f64>> {
-    let settings = &evidence.settings().location;
-    // without the outermost poses, which may be stray
-    let extent = |of: &dyn Fn(&Sample) -> f64| {
-        let mut values: Vec<f64> = evidence.samples().iter().map(of).collect();
-        values.sort_by(f64::total_cmp);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a part of them"
-        )]
-        let aside = (settings.outer_share * real(values.len())) as usize;
-        let [low, high] = [values[aside], values[values.len() - 1 - aside]];
-        (high - low).max(2.0 * settings.min_wavelength)
-    };
-    let step = Vector2::new(extent(&|s| s.pose.x), extent(&|s| s.pose.y))
-        .map(|extent| TAU / (settings.waves_per_length * extent));
-    // half an ellipse holds π/2 K²/(Δk_x Δk_y) wave vectors
-    let largest = (2.0 * real(settings.max_waves) * step.x * step.y / PI).sqrt();
-    let largest = largest.min(TAU / settings.min_wavelength);
-    let multiples =
-        |step: f64| (0..).map(move |k: u32| step * f64::from(k)).take_while(move |k| *k <= largest);
-    // k and −k are equivalent
-    let other = |[x, y]: [f64; 2]| (x > 0.0 && y > 0.0).then_some([x, -y]);
-    let mut numbers: Vec<Vector2<f64>> = multiples(step.x)
-        .flat_map(|x| multiples(step.y).map(move |y| [x, y]))
-        .flat_map(|number| std::iter::once(number).chain(other(number)))
-        .map(Vector2::from)
-        .filter(|number| number.norm() > 0.0 && number.norm() <= largest)
-        .collect();
-    numbers.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
-    numbers
-}
-
-/// The six columns of a wave, not whitened.
-fn columns(
-    evidence: &Evidence,
-    [middle, half, y]: &[Vec<Vector3<f64>>; 3],
-    number: Vector2<f64>,
-) -> [Vec<Vector3<f64>>; 6] {
-    let mut columns = std::array::from_fn(|_| Vec::with_capacity(half.len()));
-    let across_crests = number.normalize();
-    for (k, sample) in evidence.samples().iter().enumerate() {
-        let pose = &sample.pose;
-        let (phase_sin, phase_cos) = (number.x * pose.x + number.y * pose.y).sin_cos();
-        let (sin, cos) = pose.yaw.sin_cos();
-        let left = across_crests.y * cos - across_crests.x * sin;
-        let forward = across_crests.x * cos + across_crests.y * sin;
-        let by = [half[k], middle[k] * left, y[k] * forward];
-        for (place, departure) in by.into_iter().enumerate() {
-            columns[2 * place].push(departure * phase_cos);
-            columns[2 * place + 1].push(departure * phase_sin);
+impl Along {
+    /// The symmetry that such waves break.
+    pub fn symmetry(self) -> Symmetry {
+        match self {
+            Self::Ground { .. } => Symmetry::Place,
+            Self::Belts => Symmetry::Transient,
         }
     }
-    columns
+}
+
+/// A kind of waves: those that evidence can resolve, beside a fit and its Jacobian by the ICRs;
+/// none where it shows no such waves.
+type Kind = for<'a> fn(&'a Weighted, &Fit, &IcrColumns) -> Option<Resolved<'a>>;
+
+/// All kinds of waves.
+pub const KINDS: [Kind; 2] = [ground::resolved, belts::resolved];
+
+/// Waves that evidence can resolve.
+pub struct Resolved<'a> {
+    evidence: &'a Weighted,
+    /// Their lengths, m, and what they run along.
+    waves: Vec<(f64, Along)>,
+    /// Columns of a wave, not whitened.
+    columns: Box<dyn Fn(usize) -> Vec<Vec<Vector3<f64>>> + Sync + 'a>,
+    /// Parts of the evidence in which a wave has sizes of its own.
+    parts: Vec<Part>,
+}
+
+/// Neighbouring samples, and the blocks that they make up.
+struct Part {
+    samples: Range<usize>,
+    blocks: Range<usize>,
+}
+
+impl Resolved<'_> {
+    /// The most significant wave in a residual, beside other columns that may explain it; both are
+    /// whitened.
+    pub fn strongest(
+        &self,
+        residual: &[Vector3<f64>],
+        beside: &[Vec<Vector3<f64>>],
+        resampling: Resampling,
+    ) -> Option<Wave> {
+        let evidence = self.evidence;
+        let remainder = Remainder::new(evidence, residual, beside);
+        let groups: Vec<Group> = (0..self.waves.len())
+            .into_par_iter()
+            .map(|wave| {
+                let columns = (self.columns)(wave).into_iter();
+                let columns: Vec<_> = columns.map(|column| evidence.white(column)).collect();
+                remainder.group(&columns, &self.parts, &evidence.settings().location)
+            })
+            .collect();
+        let tests = self.waves.iter().zip(test_family(&groups, resampling));
+        let waves = tests.map(|(&(length, along), test)| Wave { length, along, test });
+        waves.reduce(|best, wave| if wave.test.is_stronger(&best.test) { wave } else { best })
+    }
 }
 
 /// A residual with the other columns projected out, and the square roots of the sample weights.
@@ -159,20 +129,32 @@ impl Remainder {
         Self { roots, blocks, beside, residual }
     }
 
-    fn group(&self, columns: &[Vec<Vector3<f64>>; 6], settings: &settings::Location) -> Group {
-        let mut matrix = DMatrix::zeros(self.residual.len(), columns.len());
-        for (c, column) in columns.iter().enumerate() {
-            for (k, (value, root)) in column.iter().zip(&self.roots).enumerate() {
-                matrix.fixed_view_mut::<3, 1>(3 * k, c).copy_from(&(value * *root));
+    /// Scores of columns, each part of the samples with sizes of its own.
+    fn group(
+        &self,
+        columns: &[Vec<Vector3<f64>>],
+        parts: &[Part],
+        settings: &settings::Location,
+    ) -> Group {
+        let scores = |part: &Part| {
+            let Range { start, end } = part.samples;
+            let mut matrix = DMatrix::zeros(3 * (end - start), columns.len());
+            for (c, column) in columns.iter().enumerate() {
+                let weighted = column[start..end].iter().zip(&self.roots[start..end]);
+                for (k, (value, root)) in weighted.enumerate() {
+                    matrix.fixed_view_mut::<3, 1>(3 * k, c).copy_from(&(value * *root));
+                }
             }
-        }
-        matrix -= &self.beside * self.beside.tr_mul(&matrix);
-        let blocks = self.blocks.iter().map(|rows| {
-            let (first, count) = (rows.start.min(rows.end), rows.len());
-            let of = matrix.rows(first, count);
-            (of.tr_mul(&self.residual.rows(first, count)), of.tr_mul(&of))
-        });
-        Group::of(&blocks.collect::<Vec<_>>(), settings)
+            let beside = self.beside.rows(3 * start, 3 * (end - start));
+            matrix -= beside * beside.tr_mul(&matrix);
+            let blocks = self.blocks[part.blocks.clone()].iter().map(|rows| {
+                let (first, count) = (rows.start.min(rows.end), rows.len());
+                let of = matrix.rows(first.saturating_sub(3 * start), count);
+                (of.tr_mul(&self.residual.rows(first, count)), of.tr_mul(&of))
+            });
+            (part.blocks.start, blocks.collect())
+        };
+        Group::of_parts(&parts.iter().map(scores).collect::<Vec<_>>(), settings)
     }
 }
 
@@ -194,6 +176,7 @@ fn orthonormal_basis(columns: &[DVector<f64>], length: usize) -> DMatrix<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use trackdyn_core::real;
 
     #[test]
     fn a_basis_spans_its_columns_and_no_more() {

@@ -30,7 +30,7 @@ group! {
         places: [f64; 5] = [-3.0, -1.0, 0.0, 1.0, 3.0], "", [-100.0, 100.0],
             "Anchors lie beside areas too.",
             "Other anchors look like slopes.";
-        /// Times of a change, in half lengths of the recording from its middle.
+        /// Times of a change, in half the time that was driven, from its middle.
         times: [f64; 6] = [-1.1, -0.66, -0.22, 0.22, 0.66, 1.1], "", [-10.0, 10.0],
             "A quarter of a recording apart; the outer ones are before and after.",
             "Short changes are missed.";
@@ -38,7 +38,7 @@ group! {
         max_places: usize = 40, "", [1.0, 1e5],
             "Others are seldom passed.",
             "Lower: patches are missed.";
-        /// Most rounds that refine a variant.
+        /// Most rounds that refine a variant; of a time, at each length of the steps.
         refining_rounds: usize = 6, "", [0.0, 100.0],
             "Steps and three halvings.",
             "Lower: places stay coarse.";

@@ -49,6 +49,14 @@ group! {
         waves_per_length: f64 = 1.3, "", [0.1, 10.0],
             "Half-way a wave keeps three quarters.",
             "Lower: waves fall between.";
+        /// Shortest wave of the belts.
+        min_belt_wavelength: f64 = 0.3, "m", [0.01, 1e3],
+            "A sprocket of 10 cm turns once.",
+            "Higher: a sprocket out of true is missed.";
+        /// Way of a belt over which its waves are followed.
+        max_belt_way: f64 = 50.0, "m", [1.0, 1e6],
+            "Many turns of a sprocket.",
+            "Longer: more waves, and chance grows; shorter: a weak one is missed.";
         /// Part of the poses beyond each end of the area.
         outer_share: f64 = 0.01, "", [0.0, 0.4],
             "One in 100 may be stray.",

@@ -90,6 +90,14 @@ pub enum Refusal {
     },
 }
 
+impl Refusal {
+    /// Whether numbers that an effect needs speak against it, and not what it explains: another one
+    /// may explain that with possible numbers.
+    pub fn is_of_numbers(&self) -> bool {
+        matches!(self, Self::AtLimit { .. } | Self::MayBeNone | Self::Nowhere)
+    }
+}
+
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

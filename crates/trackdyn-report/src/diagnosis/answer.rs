@@ -6,6 +6,7 @@ use crate::ticks::number;
 use trackdyn_diagnose::Status;
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::hypothesis::Unknown;
+use trackdyn_diagnose::locate::Along;
 use trackdyn_diagnose::locate::cells::Cell;
 use trackdyn_diagnose::proposal::Proposal;
 use trackdyn_diagnose::verdict::{Refusal, Verdict};
@@ -97,15 +98,21 @@ fn once(subject: &Subject, verdict: &Verdict) -> Option<String> {
 fn left(subject: &Subject) -> String {
     let after = &subject.diagnosis.evidence.after;
     let names: Vec<&str> = after.broken().into_iter().map(|one| symmetry(one)[0]).collect();
-    let wave = after.wave.map_or(String::new(), |wave| {
-        format!(
+    let waves = after.waves.iter().map(|wave| match wave.along {
+        Along::Ground { direction } => format!(
             " The ground is wavy: the ICRs come and go every {} m in the direction of {} degrees.",
             number(wave.length, 2),
-            number(wave.direction.to_degrees(), 0)
-        )
+            number(direction.to_degrees(), 0)
+        ),
+        Along::Belts => format!(
+            " A track runs faster and slower every {} m of its way, as with a sprocket or an \
+             encoder that runs out of true, or a damaged belt.",
+            number(wave.length, 2)
+        ),
     });
+    let waves: String = waves.collect();
     format!(
-        "That is part of it, not all: what is left still breaks symmetries of driving ({}).{wave}",
+        "That is part of it, not all: what is left still breaks symmetries of driving ({}).{waves}",
         names.join(", ")
     )
 }

@@ -219,8 +219,37 @@ fn alternatives_together_take_what_each_leaves() {
 
 /// What is stated is what the size really leaves, in length and in shape: laws of the slip speed
 /// are not linear, what sheared soil shows changes its sign, and phases of shoes show of any size.
+/// Returns how many sizes show about as was wanted.
+fn sizes_show_as_stated(seed: u64, laws: impl Iterator<Item = (&'static str, f64)>) -> usize {
+    let stage = Stage::new(seed);
+    stage.with(|judge, scene| {
+        let mut random = stream(&Root::of_seed(2), 1, 0, Purpose::Concealed);
+        let as_wanted = laws.filter(|&(id, wanted)| {
+            let dose = Dose::draw(sheet(id), scene, &mut random);
+            let sized = judge.sized(dose, wanted, 1.0).expect("a size");
+            let at = judge.at(sized.dose, sized.strength).expect("it drives");
+            let [stated, shown] = [&sized.signature, &at.signature].map(|s| judge.z(s));
+            let sum: Vec<f64> =
+                sized.signature.iter().zip(&at.signature).map(|(a, b)| a + b).collect();
+            let cosine =
+                (judge.z(&sum).powi(2) - stated * stated - shown * shown) / (2.0 * stated * shown);
+            assert!((shown / stated).ln().abs() < STRENGTH_TOLERANCE, "{id}: {shown} for {stated}");
+            assert!(cosine > 0.95, "{id}: cosine {cosine}");
+            (stated / wanted).ln().abs() < 2.0 * STRENGTH_TOLERANCE
+        });
+        as_wanted.count()
+    })
+}
+
 #[test]
 fn a_size_shows_by_the_z_that_is_stated() {
+    let laws = [("stribeck-friction", 10.0), ("shear-displacement", 10.0), ("hitch-drag", 3.0)];
+    sizes_show_as_stated(21, laws.into_iter());
+}
+
+#[test]
+#[ignore = "eleven minutes: .ci/nightly runs it"]
+fn sizes_of_many_laws_show_by_the_z_that_is_stated() {
     const SLIP_SPEED: [&str; 3] = ["stribeck-friction", "viscous-friction", "friction-creep"];
     const OTHERS: [&str; 7] = [
         "load-transfer",
@@ -231,34 +260,15 @@ fn a_size_shows_by_the_z_that_is_stated() {
         "splayed-belts",
         "drive-backlash",
     ];
-    let mut of_wanted = 0;
-    for seed in [21, 24] {
-        let stage = Stage::new(seed);
-        stage.with(|judge, scene| {
-            let mut random = stream(&Root::of_seed(2), 1, 0, Purpose::Concealed);
-            let weak = SLIP_SPEED.into_iter().chain(OTHERS).flat_map(|id| [(id, 3.0), (id, 10.0)]);
-            let strong = SLIP_SPEED.into_iter().flat_map(|id| [(id, 20.0), (id, 50.0)]);
-            for (id, wanted) in weak.chain(strong) {
-                let dose = Dose::draw(sheet(id), scene, &mut random);
-                let sized = judge.sized(dose, wanted, 1.0).expect("a size");
-                let at = judge.at(sized.dose, sized.strength).expect("it drives");
-                let [stated, shown] = [&sized.signature, &at.signature].map(|s| judge.z(s));
-                let sum: Vec<f64> =
-                    sized.signature.iter().zip(&at.signature).map(|(a, b)| a + b).collect();
-                let cosine = (judge.z(&sum).powi(2) - stated * stated - shown * shown)
-                    / (2.0 * stated * shown);
-                assert!(
-                    (shown / stated).ln().abs() < STRENGTH_TOLERANCE,
-                    "{id}: {shown} for {stated}"
-                );
-                assert!(cosine > 0.95, "{id}: cosine {cosine}");
-                of_wanted += usize::from((stated / wanted).ln().abs() < 2.0 * STRENGTH_TOLERANCE);
-            }
-        });
-    }
+    let as_wanted = [21, 24].map(|seed| {
+        let weak = SLIP_SPEED.into_iter().chain(OTHERS).flat_map(|id| [(id, 3.0), (id, 10.0)]);
+        let strong = SLIP_SPEED.into_iter().flat_map(|id| [(id, 20.0), (id, 50.0)]);
+        sizes_show_as_stated(seed, weak.chain(strong))
+    });
     // the least soil can be shows more on sensitive robots, and laws of the slip speed saturate on
     // others: four of five
-    assert!(of_wanted >= 42, "{of_wanted} of 52");
+    let as_wanted: usize = as_wanted.into_iter().sum();
+    assert!(as_wanted >= 42, "{as_wanted} of 52");
 }
 
 /// A place that the first runs never pass can be told from other effects all the same, by those

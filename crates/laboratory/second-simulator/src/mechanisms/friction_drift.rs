@@ -5,7 +5,7 @@ use crate::mechanism::{Contact, Described, Mechanism, scale_ratio, share_ratio};
 use crate::sheet::{Family, Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 /// Time in which 63 % of the change are done, s.
-const SETTLING_TIME: f64 = 120.0;
+const SETTLING_TIME: f64 = 300.0;
 
 /// Largest logarithm of a factor: friction that has changed five times has changed enough.
 const MAX_LN_FACTOR: f64 = 1.6;
@@ -30,13 +30,13 @@ impl Described for FrictionDrift {
     const SHEET: Sheet = Sheet {
         id: "friction-drift",
         origin: Origin::Catalogue,
-        law: "f = 1 + r T (1 − exp(−t/T)), T = 120 s, on μ_x/μ_y",
+        law: "f = 1 + r T (1 − exp(−t/T)), T = 300 s, on μ_x/μ_y",
         size: "starts as 1 + r t does, and ends at 1 + r T",
         shares_size: false,
         family: Some(Family {
-            law: "f = (1 + r t₀)^(φ(t/t₀)/φ(1)) on μ_x/μ_y, t₀ = 120 s, φ = 1 − exp(−τ/θ) with θ \
+            law: "f = (1 + r t₀)^(φ(t/t₀)/φ(1)) on μ_x/μ_y, t₀ = 300 s, φ = 1 − exp(−τ/θ) with θ \
                   from 0.5 to 4, or τ^p with p from 0.5 to 1.8; f^q of it on μ_x, q from 0 to 1",
-            size: "equal to 1 + r t at 120 s",
+            size: "equal to 1 + r t at 300 s",
             shares_size: false,
         }),
         breaks: &[Symmetry::Time],
@@ -44,7 +44,7 @@ impl Described for FrictionDrift {
         parameters: &[Parameter {
             key: "rate_1_per_s",
             unit: "1/s",
-            range: [-0.005, 0.005],
+            range: [-0.003, 0.003],
             typical: 0.001,
             draw: Draw::size(0.001).signed(),
         }],

@@ -218,6 +218,10 @@ fn another_ground_between_two_times_is_named_with_its_times() {
         let off = (interval.value / truth).ln().abs();
         assert!(off < 0.06, "{interval:?} for {truth}");
     }
+    // to two samples of 0.27 s
+    for (interval, truth) in parameters[1..].iter().zip([50.0, 101.0]) {
+        assert!((interval.value - truth).abs() < 0.6, "{interval:?} for {truth}");
+    }
 }
 
 #[test]

@@ -118,6 +118,7 @@ pub struct Beside<'a> {
     evidence: &'a Weighted,
     mechanics: Mechanics,
     prediction: Vec<Vector3<f64>>,
+    driven: Driven,
 }
 
 /// Indices of the sizes among an effect's parameters.
@@ -241,7 +242,7 @@ impl<'a> Beside<'a> {
     pub fn new(hypothesis: &'a Hypothesis, evidence: &'a Weighted) -> Self {
         let mechanics = Mechanics::new(hypothesis, evidence);
         let prediction = mechanics.predict(&Instruments::of(hypothesis), evidence);
-        Self { hypothesis, evidence, mechanics, prediction }
+        Self { hypothesis, evidence, mechanics, prediction, driven: Driven::of(evidence) }
     }
 
     /// Whether the hypothesis has the effect already.

@@ -27,9 +27,10 @@ use crate::settings;
 use crate::significance::{Test, test};
 use crate::weighted::Weighted;
 use nalgebra::Vector3;
+use std::cell::LazyCell;
 use trackdyn_core::real;
 use trackdyn_model::effect::Symmetry;
-use waves::KINDS;
+use waves::{KINDS, Remainder};
 
 /// Jacobian of a prediction by x_l, x_r and y, not whitened.
 pub type IcrColumns = [Vec<Vector3<f64>>; 3];
@@ -136,21 +137,22 @@ impl Residual<'_> {
     pub fn locate_in_waves(&self, resampling: Resampling) -> Location {
         let mut location = self.locate(resampling);
         let Self { evidence, fit, icrs, .. } = *self;
-        let plainer = || {
+        let beside =
+            |columns: &[Vec<Vector3<f64>>]| Remainder::new(evidence, &fit.residual, columns);
+        let beside_fit = beside(&fit.columns);
+        // A plainer contrast shows in some waves too, and more so in the best of many by chance.
+        let beside_contrasts = LazyCell::new(|| {
             let plainer = contrasts(evidence, icrs).into_iter();
             let plainer = plainer.flat_map(|contrasts| contrasts.columns);
-            plainer.map(|column| evidence.white(column))
-        };
+            let plainer = plainer.map(|column| evidence.white(column));
+            beside(&fit.columns.iter().cloned().chain(plainer).collect::<Vec<_>>())
+        });
         for waves in KINDS.iter().filter_map(|kind| kind(evidence, fit, icrs)) {
-            let strongest = |beside: &[Vec<Vector3<f64>>]| {
-                let wave = waves.strongest(&fit.residual, beside, resampling);
+            let strongest = |remainder: &Remainder| {
+                let wave = waves.strongest(remainder, resampling);
                 wave.filter(|wave| wave.test.p < location.max_p[0])
             };
-            // A plainer contrast shows in some waves too, and more so in the best of many by
-            // chance.
-            let wave = strongest(&fit.columns).and_then(|_| {
-                strongest(&fit.columns.iter().cloned().chain(plainer()).collect::<Vec<_>>())
-            });
+            let wave = strongest(&beside_fit).and_then(|_| strongest(&beside_contrasts));
             let Some(wave) = wave else { continue };
             let same = |test: &&mut SymmetryTest| test.symmetry == wave.along.symmetry();
             let plain = location.tests.iter_mut().find(same);

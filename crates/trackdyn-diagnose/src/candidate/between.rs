@@ -1,6 +1,5 @@
 //! Refinement of places, directions and shapes between the values that are tried.
 
-use super::driven::Driven;
 use super::places::extent;
 use super::{Beside, Signature, Variant, spacing};
 use rayon::prelude::*;
@@ -16,10 +15,7 @@ impl Variant {
         let value = &mut moved.values[parameter];
         *value = match card.role {
             Role::Shape => *value * by.exp(),
-            Role::Time => {
-                let driven = Driven::of(beside.evidence);
-                driven.clock(driven.at(*value) + by)
-            }
+            Role::Time => beside.driven.clock(beside.driven.at(*value) + by),
             _ => *value + by,
         };
         *value = value.clamp(card.range[0], card.range[1]);
@@ -46,7 +42,7 @@ impl Beside<'_> {
         let time = others.iter().find(|&&one| parameters[one].role == Role::Time);
         let least = time.map_or(settings.min_refining_step, |&time| {
             let step = spacing(&parameters[time], None, self.evidence) / 2.0;
-            Driven::of(self.evidence).sample() / step
+            self.driven.sample() / step
         });
         let mut left = settings.refining_rounds;
         while share >= least && left > 0 {

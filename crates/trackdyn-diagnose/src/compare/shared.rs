@@ -31,10 +31,10 @@ impl Sets<'_> {
         let numbers: Vec<(&Quantity, bool)> = groups
             .flat_map(|group| group.numbers.iter().map(move |one| (one, is_claimed(group))))
             .collect();
-        let mut free = |(quantity, is_claimed): &(&Quantity, bool)| {
+        let free = |(quantity, is_claimed): &(&Quantity, bool)| {
             if *is_claimed { common.free(fits, quantity) } else { None }
         };
-        let more: Vec<Option<usize>> = numbers.iter().map(&mut free).collect();
+        let more: Vec<Option<usize>> = numbers.iter().map(free).collect();
         let InCommon { joint, own, constants, shared } = common;
         let fit = fits.fits[1];
         // An unknown at a bound that its step would cross is held there.

@@ -73,16 +73,9 @@ struct Part {
 }
 
 impl Resolved<'_> {
-    /// The most significant wave in a residual, beside other columns that may explain it; both are
-    /// whitened.
-    pub fn strongest(
-        &self,
-        residual: &[Vector3<f64>],
-        beside: &[Vec<Vector3<f64>>],
-        resampling: Resampling,
-    ) -> Option<Wave> {
+    /// The most significant wave in what is left of a residual.
+    pub fn strongest(&self, remainder: &Remainder, resampling: Resampling) -> Option<Wave> {
         let evidence = self.evidence;
-        let remainder = Remainder::new(evidence, residual, beside);
         let groups: Vec<Group> = (0..self.waves.len())
             .into_par_iter()
             .map(|wave| {
@@ -98,7 +91,7 @@ impl Resolved<'_> {
 }
 
 /// A residual with the other columns projected out, and the square roots of the sample weights.
-struct Remainder {
+pub struct Remainder {
     roots: Vec<f64>,
     blocks: Vec<Range<usize>>,
     /// Orthonormal basis of the other columns.
@@ -107,7 +100,12 @@ struct Remainder {
 }
 
 impl Remainder {
-    fn new(evidence: &Weighted, residual: &[Vector3<f64>], beside: &[Vec<Vector3<f64>>]) -> Self {
+    /// What columns leave of a residual that they may explain; both are whitened.
+    pub fn new(
+        evidence: &Weighted,
+        residual: &[Vector3<f64>],
+        beside: &[Vec<Vector3<f64>>],
+    ) -> Self {
         let weights = evidence.weights(residual);
         let roots: Vec<f64> = weights.into_iter().map(f64::sqrt).collect();
         let flat = |column: &[Vector3<f64>]| {

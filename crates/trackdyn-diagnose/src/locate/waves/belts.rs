@@ -141,6 +141,7 @@ mod tests {
     use super::*;
     use crate::base::Base;
     use crate::evidence::planned::{PlannedRun, READINGS};
+    use crate::locate::waves::Remainder;
     use crate::mechanics::Mechanics;
     use crate::plan::assumed_noise;
     use crate::progress::Watch;
@@ -202,7 +203,8 @@ mod tests {
                 .map(|_| Vector3::from_fn(|_, _| StandardNormal.sample(&mut random)))
                 .collect();
             let found = |residual: &[Vector3<f64>]| {
-                waves.strongest(residual, &base.fit.columns, resampling).expect("some are tried")
+                let remainder = Remainder::new(&evidence, residual, &base.fit.columns);
+                waves.strongest(&remainder, resampling).expect("some are tried")
             };
             false_alarms += usize::from(found(&noise).test.p <= 0.01);
             // z = 16 in all

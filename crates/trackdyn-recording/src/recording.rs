@@ -260,12 +260,12 @@ impl Recording {
         &self.robot
     }
 
-    /// The runs, in the order of their ids; each continuous.
+    /// The runs, in the order of their ids unless said otherwise; each continuous.
     pub fn runs(&self) -> &[Run] {
         &self.runs
     }
 
-    /// This recording with other runs, in the order of their ids. Its fingerprint stays that of the
+    /// This recording with other runs. Its fingerprint stays that of the
     /// whole: it tells where the runs come from.
     pub fn with_runs(&self, runs: Vec<Run>) -> Self {
         Self {

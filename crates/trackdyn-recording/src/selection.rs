@@ -3,6 +3,7 @@
 use crate::recording::{Recording, UncheckedRun};
 use crate::sample::{Sample, Series};
 use crate::{Error, Run};
+use std::cmp::Ordering;
 use std::fmt;
 use std::str::FromStr;
 
@@ -95,6 +96,17 @@ impl Recording {
         Ok(self.with_runs(indices.into_iter().map(|index| self.runs()[index].clone()).collect()))
     }
 
+    /// The recording with its runs in the order in which they were driven: by time, where one ends
+    /// before the next begins. Runs with clocks of their own stay in their order.
+    pub fn as_driven(&self) -> Self {
+        let ends =
+            |run: &Run| [run.tracks().first(), run.tracks().last()].map(|at| at.map(|at| at.t));
+        let mut runs = self.runs().to_vec();
+        runs.sort_by(|a, b| ends(a).partial_cmp(&ends(b)).unwrap_or(Ordering::Equal));
+        let follows = |pair: &[Run]| ends(&pair[0])[1] <= ends(&pair[1])[0];
+        if runs.windows(2).all(follows) { self.with_runs(runs) } else { self.clone() }
+    }
+
     /// The recording of a time only, s from the first reading of each run; runs without readings or
     /// with fewer than two poses in it are left out. Its fingerprint is that of the whole.
     ///
@@ -149,7 +161,7 @@ mod tests {
     use super::*;
     use crate::recording::Source;
     use crate::sample::{PoseSample, TrackSample};
-    use trackdyn_core::Pose;
+    use trackdyn_core::{Pose, real};
 
     fn list(text: &str) -> RunList {
         text.parse().expect("a list")
@@ -198,6 +210,28 @@ mod tests {
             error.to_string(),
             "run 99 is not in the recording: expected one of 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11"
         );
+    }
+
+    #[test]
+    fn runs_are_put_in_the_order_of_their_time_where_they_have_one_clock() {
+        let ids = |recording: &Recording| recording.runs().iter().map(Run::id).collect::<Vec<_>>();
+        // All runs begin at time 0: each has its own clock.
+        let recording = recording();
+        assert_eq!(ids(&recording.as_driven()), ids(&recording));
+
+        let later = |(k, run): (usize, &Run)| {
+            let shift = 100.0 * real(k);
+            let mut tracks = run.track_series().clone();
+            tracks.samples.iter_mut().for_each(|reading| reading.t += shift);
+            let mut poses = run.pose_series().clone();
+            poses.samples.iter_mut().for_each(|pose| pose.t += shift);
+            let imu = run.imu_series().clone();
+            Run::new(UncheckedRun { id: run.id(), tracks, poses, imu }, &mut Vec::new())
+        };
+        let mut runs: Vec<Run> = recording.runs().iter().enumerate().map(later).collect();
+        runs.reverse();
+        let backwards = recording.with_runs(runs);
+        assert_eq!(ids(&backwards.as_driven()), ids(&recording));
     }
 
     #[test]

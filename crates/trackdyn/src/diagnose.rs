@@ -128,12 +128,14 @@ impl Prepared {
             }
             (None, Some(_)) => {
                 let motion = recording.expect_positions()?;
+                let runs = motion.run_list().to_string();
+                let motion = &motion.as_driven();
                 let held_out = settings.held_out.of_motion(motion)?;
                 let (gauge, by_gyroscope) = (vehicle.gauge(), settings.gyroscope);
                 let evidence =
                     Evidence::of_drive(motion, gauge, &settings.method, by_gyroscope, settings.tau);
                 let evidence = evidence.map_err(named)?;
-                (evidence, held_out, Some(motion.run_list().to_string()))
+                (evidence, held_out, Some(runs))
             }
             (None, None) => return Err(Error::NoRecording),
         };
@@ -155,7 +157,7 @@ impl Prepared {
             fingerprint: recording.fingerprint().to_owned(),
             runs,
             time: recording.time(),
-            log: recording.motion().map(layers::Log::of),
+            log: recording.motion().map(|motion| layers::Log::of(&motion.as_driven())),
         })
     }
 

@@ -68,21 +68,28 @@ pub fn test(
 /// Tests groups as one family.
 pub fn test_family(groups: &[Group], resampling: Resampling) -> Vec<Test> {
     let blocks = groups.iter().map(Group::blocks).max().unwrap_or_default();
-    let observed: Vec<f64> = groups.iter().map(Group::observed).collect();
-    let largest: Vec<f64> = (0..resampling.draws)
+    let drawn: Vec<Vec<f64>> = (0..resampling.draws)
         .into_par_iter()
         .map(|draw| {
             let mut random = resampling.random(draw);
-            let signs =
-                DVector::from_fn(blocks, |_, _| if random.random::<bool>() { 1.0 } else { -1.0 });
-            let statistics = groups.iter().map(|group| group.normal_score(group.statistic(&signs)));
-            statistics.fold(f64::NEG_INFINITY, f64::max)
+            (0..blocks).map(|_| if random.random::<bool>() { 1.0 } else { -1.0 }).collect()
         })
         .collect();
+    // a column for each draw
+    let signs = DMatrix::from_fn(blocks, resampling.draws, |block, draw| drawn[draw][block]);
+    let none = || vec![f64::NEG_INFINITY; resampling.draws];
+    let larger = |a: Vec<f64>, b: Vec<f64>| a.iter().zip(b).map(|(a, b)| a.max(b)).collect();
+    let largest = groups
+        .par_iter()
+        .map(|group| {
+            let statistics = group.statistics(&signs);
+            statistics.into_iter().map(|statistic| group.normal_score(statistic)).collect()
+        })
+        .reduce(none, larger);
     groups
         .iter()
-        .zip(observed)
-        .map(|(group, statistic)| {
+        .map(|group| {
+            let statistic = group.observed();
             let score = group.normal_score(statistic);
             // Draws equal to the observed statistic within rounding count as reaching it.
             let exceeding = largest.iter().filter(|other| **other >= score - 1e-9).count();
@@ -139,12 +146,16 @@ impl Group {
         self.parts.iter().map(|part| part.score.norm_squared()).sum()
     }
 
-    fn statistic(&self, signs: &DVector<f64>) -> f64 {
-        let of = |part: &Part| {
-            let signs = signs.rows(part.first, part.remainders.ncols());
-            (&part.remainders * signs).norm_squared()
-        };
-        self.parts.iter().map(of).sum()
+    /// Statistics of draws, whose signs of all blocks are columns.
+    fn statistics(&self, signs: &DMatrix<f64>) -> Vec<f64> {
+        let mut sums = vec![0.0; signs.ncols()];
+        for part in &self.parts {
+            let scores = &part.remainders * signs.rows(part.first, part.remainders.ncols());
+            for (sum, score) in sums.iter_mut().zip(scores.column_iter()) {
+                *sum += score.norm_squared();
+            }
+        }
+        sums
     }
 
     /// Transforms χ² over the dispersion to an approximately standard normal score.

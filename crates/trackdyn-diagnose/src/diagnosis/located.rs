@@ -35,9 +35,14 @@ impl Located {
         let exact = &Forms::default();
         let of = |fit, forms, icrs| Residual { evidence, fit, forms, icrs };
         let filed = of(&base.as_filed, exact, &of_filed).locate(resampling);
-        let before = of(&base.fit, exact, &of_base).locate(resampling);
-        let of_corrected = of(&best.fit, &best.forms, &of_best);
-        let after = of_corrected.locate_in_waves(resampling);
+        let after = of(&best.fit, &best.forms, &of_best).locate_in_waves(resampling);
+        // Waves, which no effect of the catalogue makes, are in the base as well.
+        let of_base_alone = of(&base.fit, exact, &of_base);
+        let before = if after.waves.is_empty() {
+            of_base_alone.locate(resampling)
+        } else {
+            of_base_alone.locate_in_waves(resampling)
+        };
         let left_over = after.left_over(tolerated(evidence, base, best));
         let cells = [(&base.fit, &of_base), (&best.fit, &of_best)]
             .map(|(fit, icrs)| cells(evidence, &fit.residual, icrs));

@@ -50,8 +50,12 @@ impl Crate {
 
 /// A text without comments and without what is compiled for tests only.
 pub fn code(text: &str) -> String {
-    let tests = text.find("#[cfg(test)]\nmod tests {").unwrap_or(text.len());
-    let lines = text[..tests].lines().map(|line| line.split("//").next().unwrap_or_default());
+    let is_of_tests =
+        |after: &str| after.lines().next().is_some_and(|l| l.ends_with("mod tests {"));
+    let mut marks = text.match_indices("#[cfg(test)]\n");
+    let tests = marks.find(|(at, mark)| is_of_tests(&text[at + mark.len()..]));
+    let end = tests.map_or(text.len(), |(at, _)| at);
+    let lines = text[..end].lines().map(|line| line.split("//").next().unwrap_or_default());
     lines.collect::<Vec<_>>().join("\n")
 }
 

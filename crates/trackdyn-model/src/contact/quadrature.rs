@@ -3,7 +3,6 @@
 //! Used where the closed form does not apply: laws that change the shear stress, and ICRs so far
 //! away that the slip direction is nearly uniform.
 
-use crate::contact::closed_form::distance_squared;
 use crate::contact::{Friction, Patch, Pressure, ShearStress, SlipField};
 use gauss_quad::GaussLegendre;
 use std::num::NonZeroUsize;
@@ -89,7 +88,7 @@ pub fn far_field_wrench<S: Scalar>(
     let unit = S::from(1.0);
     let mut wrench = Wrench::zero();
     for patch in patches {
-        let distance = distance_squared(&patch.value(), slip).sqrt();
+        let distance = slip.icr_distance_squared(&patch.value()).sqrt();
         let reached = NODES_BY_DISTANCE.iter().position(|(from, _)| distance >= *from);
         let rule = &rules[reached.unwrap_or(NODES_BY_DISTANCE.len() - 1)];
         wrench += integrate(rule, &Panels::whole(&patch), slip, |site| {

@@ -113,7 +113,7 @@ fn cells_of_a_recording() {
     check(&place, &all);
 }
 
-/// The pool of threads is made before any work: 10⁵ of them would keep the machine busy for minutes.
+/// Threads are started before any work: 10⁵ of them would keep the machine busy for minutes.
 #[test]
 fn threads() {
     let place = Workplace::new();

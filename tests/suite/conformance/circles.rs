@@ -15,7 +15,7 @@ type Names = Vec<String>;
 /// Largest number of imports through which one name is followed.
 const MAX_IMPORTS: usize = 8;
 
-/// What a `use` declaration brings into its module: a name, or `*`, and the path that it stands for.
+/// What a `use` declaration brings into its module: a name, or `*`, and the path behind it.
 struct Import {
     name: String,
     path: Names,

@@ -4,7 +4,7 @@ use crate::parameters::Parameters;
 use crate::sensor::Nuisance;
 
 /// Largest standard deviation that is told: more says no more.
-const MAX_TOLD: f64 = 100.0;
+const MAX_SHOWN_DEVIATION: f64 = 100.0;
 
 /// Why a recording does not determine a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,10 +53,10 @@ impl std::fmt::Display for Doubt {
             Self::Wide { parameter, deviation, limit } => {
                 let name = Parameters::NAMES[parameter];
                 let unit = if parameter < 3 { " m" } else { "" };
-                let by = if deviation < MAX_TOLD {
+                let by = if deviation < MAX_SHOWN_DEVIATION {
                     format!("{deviation:.2}{unit}")
                 } else {
-                    format!("more than {MAX_TOLD}{unit}")
+                    format!("more than {MAX_SHOWN_DEVIATION}{unit}")
                 };
                 write!(
                     f,

@@ -5,7 +5,7 @@ use trackdyn_model::CATALOGUE;
 use trackdyn_second_simulator::MECHANISMS;
 
 /// Sources, each with why it may write words that are ids as well.
-const ARGUED: [(&str, &str, &str); 1] = [(
+const ARGUED_SOURCES: [(&str, &str, &str); 1] = [(
     "estimate",
     "sensor.rs",
     "names of the two quantities of a pose sensor that `identify --fit` takes and files state: \
@@ -26,8 +26,9 @@ fn no_source_names_an_effect_but_its_own() {
         for (path, code) in of.code() {
             for id in ids.iter().filter(|id| names(&code, id)) {
                 let file = path.to_string_lossy();
-                let is_argued =
-                    ARGUED.iter().any(|(name, source, _)| *name == of.name && *source == file);
+                let is_argued = ARGUED_SOURCES
+                    .iter()
+                    .any(|(name, source, _)| *name == of.name && *source == file);
                 if path.file_stem().is_some_and(|stem| *stem == *id.replace('-', "_")) {
                     own += 1;
                 } else if is_argued {
@@ -41,7 +42,7 @@ fn no_source_names_an_effect_but_its_own() {
     found.dedup();
     assert!(found.is_empty(), "what is to be known of an effect stands on its card:\n{found:#?}");
     assert!(own >= 2 * CATALOGUE.len() - 1, "{own} own names: sources are not where they were");
-    for (name, source, _) in ARGUED {
+    for (name, source, _) in ARGUED_SOURCES {
         assert!(argued.contains(&format!("{name}/{source}")), "{name}/{source} needs no argument");
     }
 }

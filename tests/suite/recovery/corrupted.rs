@@ -9,7 +9,7 @@ use trackdyn_estimate::{Free, Interval};
 use trackdyn_recording::{Recording, Run, Source, TrackSample, Warning};
 
 /// Largest share of the readings that are wrong.
-const MAX_BAD: f64 = 0.02;
+const MAX_BAD_SHARE: f64 = 0.02;
 
 /// What can be wrong with a reading of one side.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +61,7 @@ fn corrupted(recording: &Recording, kinds: &[Fault], seed: u64) -> Recording {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let readings: usize = recording.runs().iter().map(|run| run.tracks().len()).sum();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share")]
-    let most = (MAX_BAD * trackdyn_core::real(readings)) as usize;
+    let most = (MAX_BAD_SHARE * trackdyn_core::real(readings)) as usize;
     let mut left = random.random_range(1..=most);
     let mut runs: Vec<_> = recording.runs().iter().cloned().map(Run::into_rows).collect();
     while left > 0 {
@@ -81,7 +81,7 @@ fn corrupted(recording: &Recording, kinds: &[Fault], seed: u64) -> Recording {
 const DRIVES: u64 = 20;
 
 /// These drives, each with its x_r − x_l.
-static WHOLE: LazyLock<Vec<(Recording, Interval)>> = LazyLock::new(|| {
+static WHOLE_DRIVES: LazyLock<Vec<(Recording, Interval)>> = LazyLock::new(|| {
     let whole = (0..DRIVES).into_par_iter().map(|seed| {
         let whole = drive(seed);
         let good = fit(&whole, Free::Icrs).expect("settles").gap();
@@ -98,7 +98,7 @@ fn off(hurt: &Recording, good: &Interval) -> f64 {
 
 /// By how many standard errors x_r − x_l moves, over this many logs: the largest and the mean.
 fn moved(kinds: &[Fault], logs: u64) -> [f64; 2] {
-    let cases: Vec<_> = (0..logs).zip(WHOLE.iter().cycle()).collect();
+    let cases: Vec<_> = (0..logs).zip(WHOLE_DRIVES.iter().cycle()).collect();
     let moved: Vec<f64> = cases
         .into_par_iter()
         .map(|(seed, (whole, good))| off(&corrupted(whole, kinds, seed), good))
@@ -136,7 +136,7 @@ fn stuck_stretches_move_the_distance_by_less_than_its_standard_error() {
 /// A level that no track has, for three readings up to more than a second.
 #[test]
 fn a_wide_spike_moves_the_distance_by_less_than_its_standard_error() {
-    let cases: Vec<(u64, _)> = (0..24).zip(WHOLE.iter().cycle()).collect();
+    let cases: Vec<(u64, _)> = (0..24).zip(WHOLE_DRIVES.iter().cycle()).collect();
     cases.into_par_iter().for_each(|(seed, (whole, good))| {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut runs: Vec<_> = whole.runs().iter().cloned().map(Run::into_rows).collect();

@@ -309,6 +309,3 @@ impl<'de> Deserialize<'de> for Settings {
         Self::from_table(&Table::deserialize(deserializer)?).map_err(D::Error::custom)
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -82,13 +82,17 @@ impl std::fmt::Display for Doubt {
                 "lever-arm cannot be told from the ICRs, which it moves as a whole, by poses and \
                  track speeds of any kind: measure the mount",
             ),
-            Self::NoTranslation => f.write_str(
-                "sensor-yaw shows only where the robot drives ahead as well as turns: drive \
-                 straight, or on circles of different size",
+            Self::NoTranslation => write!(
+                f,
+                "{} shows only where the robot drives ahead as well as turns: drive straight, or \
+                 on circles of different size",
+                Nuisance::SensorYaw
             ),
-            Self::NoChange => f.write_str(
-                "time-offset shows only where track speeds change, and here they change by less \
-                 than their noise: speed up, slow down, begin and end turns",
+            Self::NoChange => write!(
+                f,
+                "{} shows only where track speeds change, and here they change by less than their \
+                 noise: speed up, slow down, begin and end turns",
+                Nuisance::TimeOffset
             ),
             Self::NoLateralSpeed => f.write_str(
                 "y shows in the lateral speed only, of which the table has none: measure v_lateral",

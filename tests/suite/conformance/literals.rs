@@ -1,6 +1,7 @@
 //! Effects are known by their cards and sheets: no source but their own names one.
 
 use super::crates::{all, code};
+use std::path::Path;
 use trackdyn_model::CATALOGUE;
 use trackdyn_second_simulator::MECHANISMS;
 
@@ -12,9 +13,23 @@ const ARGUED_SOURCES: [(&str, &str, &str); 1] = [(
      they come of no catalogue, and identification knows no effects",
 )];
 
-/// Whether code names an id in a string: by itself, or with settings behind a colon.
+/// Whether code names an id: in a string of its own, or with settings behind a colon; an id of
+/// several words also anywhere in a longer string.
 fn names(code: &str, id: &str) -> bool {
-    code.contains(&format!("\"{id}\"")) || code.contains(&format!("\"{id}:"))
+    let is_of_id = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
+    let mut places = code.match_indices(id).filter(|(at, _)| !code[..*at].ends_with(is_of_id));
+    places.any(|(at, _)| {
+        let (before, after) = (&code[..at], &code[at + id.len()..]);
+        let has_settings =
+            after.strip_prefix(':').is_some_and(|key| key.starts_with(char::is_alphabetic));
+        let is_alone = before.ends_with('"') && after.starts_with(['"', ':']);
+        is_alone || has_settings || (id.contains('-') && !after.starts_with(is_of_id))
+    })
+}
+
+/// Whether a source is that of an effect or a mechanism: what it says of another one is prose.
+fn is_of_list(path: &Path) -> bool {
+    ["effects", "mechanisms"].iter().any(|folder| path.starts_with(folder))
 }
 
 #[test]
@@ -24,12 +39,21 @@ fn no_source_names_an_effect_but_its_own() {
     let (mut found, mut own, mut argued) = (Vec::new(), 0, Vec::new());
     for of in all() {
         for (path, code) in of.code() {
-            for id in ids.iter().filter(|id| names(&code, id)) {
+            let is_own =
+                |id: &str| path.file_stem().is_some_and(|stem| *stem == *id.replace('-', "_"));
+            let is_named = |id: &str| {
+                if is_of_list(&path) {
+                    code.contains(&format!("\"{id}\""))
+                } else {
+                    names(&code, id)
+                }
+            };
+            for id in ids.iter().filter(|id| is_named(id)) {
                 let file = path.to_string_lossy();
                 let is_argued = ARGUED_SOURCES
                     .iter()
                     .any(|(name, source, _)| *name == of.name && *source == file);
-                if path.file_stem().is_some_and(|stem| *stem == *id.replace('-', "_")) {
+                if is_own(id) {
                     own += 1;
                 } else if is_argued {
                     argued.push(format!("{}/{file}", of.name));
@@ -51,5 +75,9 @@ fn no_source_names_an_effect_but_its_own() {
 fn a_name_is_seen() {
     assert!(names("let it = \"slope\";", "slope") && names("\"slope:angle_deg=3\"", "slope"));
     assert!(!names("let slope = \"slopes\";", "slope"));
+    assert!(names("\"the effect yaw-inertia says it\"", "yaw-inertia"));
+    assert!(names("\"--effect slope:angle_deg=3\"", "slope"));
+    assert!(!names("\"down the slope: it slides\"; slope::Slope", "slope"));
+    assert!(!names("\"no-time-offset\", \"time-offsets\"", "time-offset"));
     assert!(!code("// \"slope\"\n#[cfg(test)]\nmod tests { \"slope\" }").contains("slope"));
 }

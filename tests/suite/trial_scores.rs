@@ -1,9 +1,12 @@
 //! Scores on answers and diagnoses that are written by hand.
 
-use super::*;
-use crate::answer::{Answer, Concealed, Instrument};
-use crate::diagnosis::Diagnosis;
-use crate::plan::Stratum;
+use trackdyn_blind_trial::answer::{Answer, Concealed, Instrument};
+use trackdyn_blind_trial::diagnosis::Diagnosis;
+use trackdyn_blind_trial::plan::Stratum;
+use trackdyn_blind_trial::score::{
+    Judged, Outcome, Reply, Revisited, Score, cases_csv, markdown, means, rates, resolution,
+    resolution_markdown,
+};
 use trackdyn_second_simulator::MECHANISMS;
 
 fn concealed(id: &str, z_det: f64, z_iso: f64) -> Concealed {
@@ -245,6 +248,6 @@ fn a_rule_names_what_it_should_not_along_with_what_it_should() {
     // Φ(1), and of two others Φ(−1) and none
     assert!((reach.isolable - 0.841_345).abs() < 1e-6, "{reach:?}");
     assert!((reach.others - 0.158_655 / 2.0).abs() < 1e-6, "{reach:?}");
-    assert!(tables::markdown(&score).contains("| 4.0 | 84.1 % | 7.9 % |"));
+    assert!(markdown(&score).contains("| 4.0 | 84.1 % | 7.9 % |"));
     assert!(Score::of(vec![single("slope", 5.0)]).reach.is_empty());
 }

@@ -20,7 +20,7 @@ const RUNS: usize = 9;
 const RUN_TIME: f64 = 60.3;
 
 /// What is concealed.
-const CONCEALED: [&[&str]; 2] = [&[], &["load-transfer:cog_height_m=0.15"]];
+const CONCEALED_EFFECTS: [&[&str]; 2] = [&[], &["load-transfer:cog_height_m=0.15"]];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     );
     println!("|{}", "---|".repeat(8 + Stage::ALL.len()));
     for times in [1, 4, 16].into_iter().filter(|times| *times <= longest) {
-        for concealed in CONCEALED {
+        for concealed in CONCEALED_EFFECTS {
             report(&recording(times, concealed)?, concealed)?;
         }
     }

@@ -1,10 +1,10 @@
 //! Identifies ICRs and alphas from a recording as long as the paper's: what the comparison with
 //! Python peers reads.
 //!
-//! `identify_case --case FILE --seed N` writes the segments to a file, one per line: observed forward, left
-//! (m) and yaw (rad), then duration (s), V_l and V_r (m/s) of each piece. It prints, per method:
-//! name, seconds (median), cost (17), x_l, x_r, y, alpha_l, alpha_r. The seed is that of the
-//! genetic algorithm.
+//! `identify_case --case FILE --seed N` writes the segments to a file, one per line: observed
+//! forward, left (m) and yaw (rad), then duration (s), V_l and V_r (m/s) of each piece. It prints,
+//! per method: name, seconds (median), cost (17), x_l, x_r, y, alpha_l, alpha_r. The seed is that
+//! of the genetic algorithm.
 
 mod paper_case;
 

@@ -27,7 +27,7 @@ const RUN_TIME: f64 = 30.0;
 
 /// Settings that most answers hang on: what a claim must reach, what makes one answer of two, what
 /// is searched, and what residuals weigh.
-const INFLUENTIAL: [&str; 10] = [
+const MAIN_SETTINGS: [&str; 10] = [
     "verdict.max_p",
     "verdict.min_ln_bayes_factor",
     "verdict.min_held_out_gain",
@@ -41,7 +41,7 @@ const INFLUENTIAL: [&str; 10] = [
 ];
 
 /// What is concealed: nothing, one effect, two, and laws that no catalogue has.
-const CONCEALED: [&[&str]; 20] = [
+const CONCEALED_EFFECTS: [&[&str]; 20] = [
     &[],
     &[],
     &[],
@@ -73,7 +73,7 @@ struct Case {
 
 impl Case {
     fn new(index: usize) -> Result<Self, String> {
-        let concealed = CONCEALED[index];
+        let concealed = CONCEALED_EFFECTS[index];
         let seed = u64::try_from(index).map_err(|error| error.to_string())?;
         let options = ScheduleOptions {
             runs: Some(RUNS),
@@ -102,12 +102,14 @@ impl Case {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let (mut count, mut of) = (CONCEALED.len(), INFLUENTIAL.map(str::to_owned).to_vec());
+    let (mut count, mut of) = (CONCEALED_EFFECTS.len(), MAIN_SETTINGS.map(str::to_owned).to_vec());
     let mut arguments = std::env::args().skip(1);
     while let Some(key) = arguments.next() {
         let value = arguments.next().ok_or(USAGE)?;
         match (&*key, &*value) {
-            ("--cases", count_of) => count = count_of.parse::<usize>()?.min(CONCEALED.len()),
+            ("--cases", count_of) => {
+                count = count_of.parse::<usize>()?.min(CONCEALED_EFFECTS.len());
+            }
             ("--of", "all") => of = deciding(),
             ("--of", paths) => of = paths.split(',').map(str::to_owned).collect(),
             _ => return Err(USAGE.into()),

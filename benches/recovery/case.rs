@@ -17,21 +17,21 @@ use trackdyn_tests::concealed::{Drive, diagnosed, members, owned, runs, sensors}
 pub const CLOCK: &str = "time-offset";
 
 /// Name of a case in which nothing is concealed, and of an answer that names nothing.
-pub const NOTHING: &str = "nothing";
+pub const NOTHING_NAME: &str = "nothing";
 
 /// What the class of constants is called among the answers.
 pub const CONSTANTS: &str = "constants";
 
 /// Sizes that stop the robot, or with which one track holds and it goes straight on, are taken
 /// smaller by this factor, so many times at most.
-const SMALLER: f64 = 0.6;
+const SHRINK_FACTOR: f64 = 0.6;
 const SHRINKS: usize = 6;
 
 /// Speeds of a slow spin, m/s.
 const SPIN: PerSide<f64> = PerSide { left: -0.1, right: 0.1 };
 
 /// Directions are this far from the typical one, degrees: between those that the diagnosis tries.
-const BETWEEN: f64 = 20.0;
+const DIRECTION_OFFSET: f64 = 20.0;
 
 /// Size of what is concealed, against the typical one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,7 +95,7 @@ impl Setting {
 
     /// Name of what is concealed.
     pub fn id(&self) -> &'static str {
-        self.card.map_or(NOTHING, |card| card.id)
+        self.card.map_or(NOTHING_NAME, |card| card.id)
     }
 
     /// Key and value of the parameters that the ground knows, sizes at this part of the setting's.
@@ -107,7 +107,7 @@ impl Setting {
             let none = neutral(parameter);
             let value = match parameter.role {
                 Role::Size { .. } => none + part * self.size.factor() * (parameter.typical - none),
-                Role::Direction => parameter.typical + BETWEEN,
+                Role::Direction => parameter.typical + DIRECTION_OFFSET,
                 _ => parameter.typical,
             };
             let low = known.range[0].max(parameter.range[0]);
@@ -159,7 +159,7 @@ impl Case {
         let sensors = sensors(Preset::Laboratory);
         let mut reason = String::new();
         for shrinks in 0..SHRINKS {
-            let values = setting.values(SMALLER.powi(i32::try_from(shrinks).unwrap_or(0)));
+            let values = setting.values(SHRINK_FACTOR.powi(i32::try_from(shrinks).unwrap_or(0)));
             let truth: Vec<String> =
                 values.iter().map(|(key, value)| format!("{key}={value:.6}")).collect();
             let concealed = format!("{}:{}", setting.id(), truth.join(","));
@@ -236,7 +236,8 @@ impl Case {
 
     /// In a few words.
     pub fn in_short(&self) -> String {
-        let named = if self.named.is_empty() { NOTHING.to_owned() } else { self.named.join("; ") };
+        let named =
+            if self.named.is_empty() { NOTHING_NAME.to_owned() } else { self.named.join("; ") };
         format!("{}, {named}, {:.1} s", self.status, self.seconds)
     }
 }

@@ -1,16 +1,16 @@
 //! What was taken for what.
 
-use crate::case::{CLOCK, CONSTANTS, NOTHING};
+use crate::case::{CLOCK, CONSTANTS, NOTHING_NAME};
 use crate::table::{Table, ids, is_refusal};
 use std::fmt::Write;
 use trackdyn_model::CATALOGUE;
 use trackdyn_model::effect::Symmetry;
 
 /// Column of answers that nothing of the catalogue explains.
-const UNEXPLAINED: &str = "unexplained";
+const UNEXPLAINED_COLUMN: &str = "unexplained";
 
 /// Column of cases without a diagnosis.
-const REFUSED: &str = "refused";
+const REFUSED_COLUMN: &str = "refused";
 
 /// Shares of the cases of each truth in which each name came up; a member of a set counts as its
 /// part of the set.
@@ -29,10 +29,10 @@ impl Confusion {
     /// That of a table.
     pub fn of(table: &Table) -> Self {
         let ids_of = || CATALOGUE.iter().filter(|card| !card.is_form()).map(|card| card.id);
-        let rows: Vec<&str> = std::iter::once(NOTHING).chain(ids_of()).collect();
-        let ends = [NOTHING, CONSTANTS];
+        let rows: Vec<&str> = std::iter::once(NOTHING_NAME).chain(ids_of()).collect();
+        let ends = [NOTHING_NAME, CONSTANTS];
         let columns: Vec<&str> =
-            ends.into_iter().chain(ids_of()).chain([UNEXPLAINED, REFUSED]).collect();
+            ends.into_iter().chain(ids_of()).chain([UNEXPLAINED_COLUMN, REFUSED_COLUMN]).collect();
         let mut shares = vec![vec![0.0; columns.len()]; rows.len()];
         let mut cases = vec![0; rows.len()];
         for (truth, named, status) in table.answers() {
@@ -88,11 +88,11 @@ fn weights<'a>(named: &[&'a str], status: &'a str) -> Vec<(&'a str, f64)> {
         weights.extend(ids(answer).map(|id| (id, 1.0 / trackdyn_core::real(count))));
     }
     if is_refusal(status) {
-        weights.push((REFUSED, 1.0));
-    } else if status == UNEXPLAINED {
-        weights.push((UNEXPLAINED, 1.0));
+        weights.push((REFUSED_COLUMN, 1.0));
+    } else if status == UNEXPLAINED_COLUMN {
+        weights.push((UNEXPLAINED_COLUMN, 1.0));
     } else if named.is_empty() {
-        weights.push((NOTHING, 1.0));
+        weights.push((NOTHING_NAME, 1.0));
     }
     weights
 }

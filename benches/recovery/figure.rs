@@ -13,7 +13,7 @@ const CELL: i32 = 58;
 const FOOT: i32 = 190;
 const RIGHT: i32 = 60;
 /// Share from which on its number is written.
-const MIN_WRITTEN: f64 = 0.005;
+const MIN_WRITTEN_SHARE: f64 = 0.005;
 
 /// Sizes of text, pixels; pictures are read at half their size.
 const TITLE: f32 = 44.0;
@@ -49,7 +49,7 @@ fn panel(of: &Confusion, place: Area) -> Panel {
             (format!("{name} ({cases})"), if *cases == 0 { GREY } else { INK })
         });
     let shares = of.shares.iter().flatten();
-    let text = |share: f64| (share >= MIN_WRITTEN).then(|| format!("{:.0}", 100.0 * share));
+    let text = |share: f64| (share >= MIN_WRITTEN_SHARE).then(|| format!("{:.0}", 100.0 * share));
     let matrix = Matrix {
         rows: rows.collect(),
         columns: of.columns.iter().map(|name| ((*name).to_owned(), INK)).collect(),

@@ -1,9 +1,9 @@
 //! Conceals every effect of the catalogue, at three sizes and in two kinds of driving, on the
 //! independent ground, and asks the diagnosis for it.
 //!
-//! `recovery --out DIR [--only ID,ID,...] [--driving manual|designed] [--runs N]` writes a line per case to
-//! `DIR/recovery.csv`; a line that is there is passed over, so that a run can be broken off. From all lines it
-//! then makes `recovery.md`, `confusion.csv` and `confusion.png`.
+//! `recovery --out DIR [--only ID,ID,...] [--driving manual|designed] [--runs N]` writes a line per
+//! case to `DIR/recovery.csv`. Cases that have a line are skipped, so a run can be stopped and
+//! continued. From all lines it then makes `recovery.md`, `confusion.csv` and `confusion.png`.
 
 mod case;
 mod confusion;

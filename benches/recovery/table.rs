@@ -1,6 +1,6 @@
 //! The table of all cases: lines of text, so that lines of an earlier run stand beside new ones.
 
-use crate::case::{Case, NOTHING, Setting};
+use crate::case::{Case, NOTHING_NAME, Setting};
 use std::fmt::Write;
 use std::path::Path;
 use trackdyn_diagnose::Status;
@@ -72,7 +72,7 @@ impl Outcome {
     fn of(truth: &str, named: &[String], status: &str) -> Self {
         let holds = |answer: &String| ids(answer).any(|id| id == truth);
         let own = named.iter().find(|answer| holds(answer));
-        let is_nothing = truth == NOTHING;
+        let is_nothing = truth == NOTHING_NAME;
         if is_refusal(status) {
             return Self::Refused;
         }

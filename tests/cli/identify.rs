@@ -29,7 +29,8 @@ fn commands_and_poses_without_noise_do() {
         ..Synthetic::default()
     };
     write(&place, "told", &synthetic);
-    let perfect = "simulate --schedule designed --runs 2 --duration 30 --cog -0.015,0.04 --sensors perfect --out perfect";
+    let perfect = "simulate --schedule designed --runs 2 --duration 30 --cog -0.015,0.04 \
+                   --sensors perfect --out perfect";
     assert_eq!(place.run(perfect).status, 0);
     for (name, close) in [("told", 5e-3), ("perfect", 1e-2)] {
         let run = place.run(&format!(
@@ -94,7 +95,7 @@ fn parameters_come_out_of_a_recording() {
     assert_eq!(used.status, 0, "{}", used.stderr);
     assert!(used.stdout.contains("alpha"));
 
-    // The same again, on other threads.
+    // Another number of threads changes nothing.
     let first = (run.stdout, text);
     let again = place
         .run_with_threads(&format!("identify rec --vehicle {} --generations 60", vehicle()), 1);

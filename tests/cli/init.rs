@@ -3,14 +3,14 @@
 use crate::Workplace;
 use std::process::Stdio;
 
-const TRACKED: &str = "--gauge 0.42 --track 0.7,0.15 --mass 258";
+const TRACKED_OPTIONS: &str = "--gauge 0.42 --track 0.7,0.15 --mass 258";
 
 #[test]
 fn what_init_writes_is_read_by_the_other_commands() {
     let place = Workplace::new();
     let wheels = "--gauge 0.555 --wheels 0.1,0.12 --axles 0.256,-0.256 --mass 75 --cog -0.01,0.03 \
                   --friction 0.9,0.7 --wheel-radius 0.165 --name Husky";
-    for (file, options) in [("tracked.toml", TRACKED), ("wheeled.toml", wheels)] {
+    for (file, options) in [("tracked.toml", TRACKED_OPTIONS), ("wheeled.toml", wheels)] {
         let run = place.run(&format!("init {file} {options}"));
         assert_eq!(run.status, 0, "{}", run.stderr);
         assert!(run.stderr.contains(&format!("wrote {file}")), "{}", run.stderr);
@@ -35,11 +35,11 @@ fn what_init_writes_is_read_by_the_other_commands() {
 fn a_file_that_is_there_is_replaced_only_by_force() {
     let place = Workplace::new();
     place.write("mine.toml", "measured for hours");
-    let run = place.run(&format!("init mine.toml {TRACKED}"));
+    let run = place.run(&format!("init mine.toml {TRACKED_OPTIONS}"));
     assert!(run.status == 1 && run.stderr.contains("mine.toml: is there already"));
     assert!(run.stderr.contains("--force"), "{}", run.stderr);
     assert_eq!(place.read("mine.toml"), b"measured for hours");
-    assert_eq!(place.run(&format!("init mine.toml {TRACKED} --force")).status, 0);
+    assert_eq!(place.run(&format!("init mine.toml {TRACKED_OPTIONS} --force")).status, 0);
     assert!(place.read("mine.toml").starts_with(b"# A vehicle"));
 }
 

@@ -161,7 +161,8 @@ fn nothing_open_is_nothing_to_plan() {
 #[test]
 fn a_size_beyond_its_range_is_shown() {
     let place = Workplace::new();
-    let table = "[[missing.parameters]]\nname = \"angle_deg\"\nvalue = 720.0\nlow95 = 0.1\nhigh95 = 0.2\nunit = \"deg\"\n\n[fit]";
+    let table = "[[missing.parameters]]\nname = \"angle_deg\"\nvalue = 720.0\n\
+                 low95 = 0.1\nhigh95 = 0.2\nunit = \"deg\"\n\n[fit]";
     let text = diagnosis("ambiguous", &["slope", "tether"]).replace("parameters = []\n", "");
     place.write("diagnosis.toml", &text.replace("[fit]", table));
     place.write("vehicle.corrected.toml", &project_text("configs/vehicles/auriga-alpha.toml"));

@@ -242,9 +242,12 @@ fn operating_points_that_do_not_do_are_refused() {
         assert!(run.stderr.contains(part), "{arguments}: {part:?} is not in:\n{}", run.stderr);
     }
     // straight driving shows no ICR
-    place.write("straight.csv", "v_left,v_right,v_forward,v_lateral,yaw_rate\n0.1,0.1,0.1,0,0\n\
-        0.2,0.2,0.2,0,0.001\n0.3,0.3,0.3,0,-0.001\n0.4,0.4,0.39,0,0\n0.5,0.5,0.5,0,0\n0.6,0.6,0.61,0,0\n\
-        0.7,0.7,0.7,0,0\n");
+    place.write(
+        "straight.csv",
+        "v_left,v_right,v_forward,v_lateral,yaw_rate\n0.1,0.1,0.1,0,0\n\
+        0.2,0.2,0.2,0,0.001\n0.3,0.3,0.3,0,-0.001\n0.4,0.4,0.39,0,0\n0.5,0.5,0.5,0,0\n\
+        0.6,0.6,0.61,0,0\n0.7,0.7,0.7,0,0\n",
+    );
     let run = place.run(&format!("identify straight.csv --vehicle {vehicle}"));
     assert_eq!(run.status, 2, "{}{}", run.stdout, run.stderr);
     assert!(!place.path().join("out/kinematics.toml").exists());

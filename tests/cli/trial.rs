@@ -260,8 +260,9 @@ fn several_programs_are_scored_side_by_side() {
     let nothing = says("status = \"nothing-missing\"");
     assert_eq!(place.run(&format!("trial run cases --name silent --program {nothing}")).status, 0);
     // as little as a program may write
-    let slope = "schema = \"trackdyn.diagnosis/1\"\nstatus = \"explained\"\n[[missing]]\neffect = \"slope\"\n\
-                 one_of = [\"slope\"]\nparameters = [{ name = \"angle_deg\", value = 2 }]\n[fit]";
+    let slope = "schema = \"trackdyn.diagnosis/1\"\nstatus = \"explained\"\n[[missing]]\n\
+                 effect = \"slope\"\none_of = [\"slope\"]\n\
+                 parameters = [{ name = \"angle_deg\", value = 2 }]\n[fit]";
     let slope = says(slope);
     assert_eq!(place.run(&format!("trial run cases --name bold --program {slope}")).status, 0);
     let nonsense = says("status = \"perhaps\"");

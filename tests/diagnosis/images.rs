@@ -16,7 +16,7 @@ use trackdyn_tests::concealed::{Drive, members, named, owned, recording, runs, s
 ///
 /// A fit ends where a step lowers χ² by less than 0.2, which is 0.45 standard deviations or a
 /// quarter of the half width; its difference quotients step to one side, which an image exchanges.
-const WITHIN: f64 = 0.25;
+const MAX_DIFFERENCE: f64 = 0.25;
 
 /// A drive of so many runs with something concealed.
 fn drive(concealed: &[&str], count: usize, seed: u64) -> Recording {
@@ -36,7 +36,7 @@ fn diagnosed(recording: &Recording, file: &VehicleFile) -> Diagnosis {
 const SPLIT: [&str; 2] = ["resistance-split:difference=0.08", "encoder-scale:left=0.98,right=1.01"];
 
 /// A drive with that, and its diagnosis.
-static ORIGINAL: LazyLock<(Recording, Diagnosis)> = LazyLock::new(|| {
+static ORIGINAL_DRIVE: LazyLock<(Recording, Diagnosis)> = LazyLock::new(|| {
     let recording = drive(&SPLIT, 4, 3);
     let diagnosis = diagnosed(&recording, &owned(&SPLIT));
     for wanted in ["resistance-split", "encoder-scale"] {
@@ -96,7 +96,7 @@ fn same(_: &str, key: &str, value: f64) -> (String, f64) {
 
 #[test]
 fn shuffled_runs_say_the_same() {
-    let (recording, one) = &*ORIGINAL;
+    let (recording, one) = &*ORIGINAL_DRIVE;
     // Runs are taken in the order of their numbers.
     let shuffled = changed(recording, |run| {
         run.id = [2, 0, 3, 1][usize::try_from(run.id).expect("a number from 0")];
@@ -113,7 +113,7 @@ fn shuffled_runs_say_the_same() {
 
 #[test]
 fn a_mirrored_recording_has_the_mirrored_answer() {
-    let (recording, one) = &*ORIGINAL;
+    let (recording, one) = &*ORIGINAL_DRIVE;
     let mirrored = changed(recording, |run| {
         for track in &mut run.tracks.samples {
             std::mem::swap(&mut track.v_left, &mut track.v_right);
@@ -125,7 +125,7 @@ fn a_mirrored_recording_has_the_mirrored_answer() {
     let mut file = owned(&SPLIT);
     file.vehicle.cog[0] = -file.vehicle.cog[0];
     let other = diagnosed(&mirrored, &file);
-    assert_images(one, &other, WITHIN, |effect, key, value| match (effect, key) {
+    assert_images(one, &other, MAX_DIFFERENCE, |effect, key, value| match (effect, key) {
         ("encoder-scale", "left") => ("right".to_owned(), value),
         ("encoder-scale", "right") => ("left".to_owned(), value),
         ("resistance-split", _) | (_, "yaw_deg") => (key.to_owned(), -value),
@@ -138,9 +138,9 @@ fn a_mirrored_recording_has_the_mirrored_answer() {
 fn another_frame_of_the_world_turns_directions_with_it() {
     /// Degrees; directions are tried every 45.
     const TURN: f64 = 110.0;
-    const CONCEALED: [&str; 1] = ["slope:angle_deg=0.7,uphill_deg=0"];
-    let recording = drive(&CONCEALED, 6, 1);
-    let file = owned(&CONCEALED);
+    const CONCEALED_EFFECT: [&str; 1] = ["slope:angle_deg=0.7,uphill_deg=0"];
+    let recording = drive(&CONCEALED_EFFECT, 6, 1);
+    let file = owned(&CONCEALED_EFFECT);
     let one = diagnosed(&recording, &file);
     let slope = |(kind, members): &(Kind, BTreeSet<&str>)| {
         *kind == Kind::Physics && members.contains("slope")
@@ -157,7 +157,7 @@ fn another_frame_of_the_world_turns_directions_with_it() {
     });
     let other = diagnosed(&turned, &file);
     assert!(named(&other).iter().any(slope), "{:?}, {:?}", named(&other), other.answer.refused);
-    assert_images(&one, &other, WITHIN, |_, key, value| {
+    assert_images(&one, &other, MAX_DIFFERENCE, |_, key, value| {
         if key != "uphill_deg" {
             return (key.to_owned(), value);
         }
@@ -177,18 +177,18 @@ fn at_other_times(recording: &Recording, by: f64) -> Recording {
 
 #[test]
 fn the_origin_of_time_says_nothing() {
-    let (recording, one) = &*ORIGINAL;
+    let (recording, one) = &*ORIGINAL_DRIVE;
     // Stamps since 1970, as robots write them: rounded to 0.2 µs.
     let other = diagnosed(&at_other_times(recording, 1.6e9), &owned(&SPLIT));
-    assert_images(one, &other, WITHIN, same);
+    assert_images(one, &other, MAX_DIFFERENCE, same);
     assert_eq!(one.answer.broken, other.answer.broken);
 }
 
 #[test]
 fn a_drift_with_time_is_found_whatever_time_counts_from() {
-    const CONCEALED: [&str; 1] = ["friction-drift:rate_1_per_s=0.0006"];
-    let recording = drive(&CONCEALED, 6, 3);
-    let file = owned(&CONCEALED);
+    const CONCEALED_EFFECT: [&str; 1] = ["friction-drift:rate_1_per_s=0.0006"];
+    let recording = drive(&CONCEALED_EFFECT, 6, 3);
+    let file = owned(&CONCEALED_EFFECT);
     let one = diagnosed(&recording, &file);
     let drift = |of: &Diagnosis| named(of).iter().any(|(_, m)| m.contains("friction-drift"));
     assert!(drift(&one), "{:?}", named(&one));
@@ -198,7 +198,7 @@ fn a_drift_with_time_is_found_whatever_time_counts_from() {
 
 #[test]
 fn a_vehicle_file_that_says_it_all_leaves_nothing_missing() {
-    let (recording, _) = &*ORIGINAL;
+    let (recording, _) = &*ORIGINAL_DRIVE;
     let mut file = owned(&SPLIT);
     for known in SPLIT {
         file.effects.insert(known.parse().expect("an effect"));

@@ -72,7 +72,7 @@ fn what_inertia_adds_is_what_small_steps_make_it() {
 fn laws_of_the_slip_speed_change_the_answer_to_acceleration() {
     let (plain, evidence) = by_hand();
     let still = |hypothesis: &Hypothesis| predicted(&without_inertia(hypothesis), &evidence);
-    for law in MILD.into_iter().chain(STRONG) {
+    for law in SLIP_LAWS.into_iter().chain(STRONG_EFFECTS) {
         let law: ActiveEffect = law.parse().expect("an effect");
         let [with, without] = [plain.with_effect(law.clone()), plain.clone()].map(|hypothesis| {
             let still = still(&hypothesis);
@@ -96,7 +96,7 @@ fn a_law_of_the_slip_speed_takes_no_part_in_what_other_numbers_change() {
     let rubber: ActiveEffect = "friction-anisotropy:ratio=0.95".parse().expect("an effect");
     let ratio = Unknown::Effect(rubber.effect(), 0);
     let plain = plain.with_effect(rubber);
-    for law in MILD {
+    for law in SLIP_LAWS {
         let here = plain.with_effect(law.parse().expect("an effect"));
         for (number, step) in [(ratio, 0.05), (Unknown::Cog(0), 0.02), (Unknown::Cog(1), 0.02)] {
             let mechanics = Mechanics::beside(None, &here, &evidence);
@@ -123,7 +123,7 @@ fn signatures_of_laws_of_the_slip_speed_know_the_answer_to_acceleration() {
     let (plain, evidence) = by_hand();
     let evidence = Weighted::new(evidence);
     let beside = Beside::new(&plain, &evidence);
-    for law in MILD.into_iter().chain(STRONG) {
+    for law in SLIP_LAWS.into_iter().chain(STRONG_EFFECTS) {
         let law: ActiveEffect = law.parse().expect("an effect");
         let variant = Variant { effect: law.effect(), values: law.values().to_vec() };
         let signatures = beside.signatures(std::slice::from_ref(&variant));
@@ -143,7 +143,7 @@ fn signatures_of_laws_of_the_slip_speed_know_the_answer_to_acceleration() {
 }
 
 /// Laws of the shear stress that hang on the slip.
-const MILD: [&str; 4] = [
+const SLIP_LAWS: [&str; 4] = [
     "stribeck-friction:excess=0.35,speed_m_per_s=0.08",
     "stribeck-friction:excess=0.35,speed_m_per_s=0.2",
     "viscous-friction:growth_s_per_m=0.15",
@@ -152,7 +152,7 @@ const MILD: [&str; 4] = [
 
 /// Effects that change the answer to acceleration so much that other numbers of the robot change
 /// another one.
-const STRONG: [&str; 2] =
+const STRONG_EFFECTS: [&str; 2] =
     ["viscous-friction:growth_s_per_m=1.0", "friction-creep:speed_m_per_s=0.05"];
 
 /// Friction that grows with the slip brakes a robot that starts to turn as more friction does.
@@ -160,12 +160,12 @@ const STRONG: [&str; 2] =
 /// law is named.
 #[test]
 fn friction_that_grows_with_the_slip_is_named_where_its_level_is_known() {
-    const CONCEALED: &str = "viscous-friction:growth_s_per_m=0.3";
-    let mut file = owned(&[CONCEALED]);
+    const CONCEALED_EFFECT: &str = "viscous-friction:growth_s_per_m=0.3";
+    let mut file = owned(&[CONCEALED_EFFECT]);
     file.vehicle.uncertainty.friction =
         FrictionUncertainty { across: Some(0.03), along: Some(0.03) };
     let schedule = runs(ScheduleKind::Manual, 4, 11);
-    let drive = Drive::new(&file.vehicle, &[CONCEALED], &schedule, 11).expect("it drives");
+    let drive = Drive::new(&file.vehicle, &[CONCEALED_EFFECT], &schedule, 11).expect("it drives");
     let sensors = sensors(Preset::Laboratory);
     let found = diagnosed(&drive.recording(&sensors, 11), &file).expect("enough");
     let walk = walk(&found);
@@ -184,12 +184,12 @@ fn friction_that_grows_with_the_slip_is_named_where_its_level_is_known() {
 /// a heading that walks, or friction that hangs on the slip.
 #[test]
 fn mass_tells_where_it_is_beside_a_mount() {
-    const CONCEALED: &str = "sensor-lever-arm:x_m=0.2,y_m=0.2";
-    let truth = owned(&[CONCEALED]);
+    const CONCEALED_EFFECT: &str = "sensor-lever-arm:x_m=0.2,y_m=0.2";
+    let truth = owned(&[CONCEALED_EFFECT]);
     let mut file = truth.clone();
     file.vehicle.cog[0] -= 0.01;
     let schedule = runs(ScheduleKind::Manual, 4, 11);
-    let drive = Drive::new(&truth.vehicle, &[CONCEALED], &schedule, 11).expect("it drives");
+    let drive = Drive::new(&truth.vehicle, &[CONCEALED_EFFECT], &schedule, 11).expect("it drives");
     let sensors = sensors(Preset::Laboratory);
     let found = diagnosed(&drive.recording(&sensors, 11), &file).expect("enough");
     let cog = found.models.base.fit.hypothesis.vehicle.cog;

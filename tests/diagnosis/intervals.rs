@@ -32,10 +32,10 @@ fn risen(diagnosis: &Diagnosis, held: Unknown, value: f64) -> f64 {
 #[test]
 fn both_ends_are_equally_unlikely_with_all_else_fitted_anew() {
     /// 95 % of one number, at the least: where noise is what it is taken for and runs are many.
-    const NORMAL: f64 = 3.84;
+    const NORMAL_CHI_SQUARE: f64 = 3.84;
     /// Ends are found to 3 % of the width, which twice the misfit goes with the square of; fits end
     /// 0.2 above the minimum.
-    const TO: f64 = 0.2;
+    const END_TOLERANCE: f64 = 0.2;
     const DRIVES: std::ops::Range<u64> = 5..8;
     let mut unequal = Vec::new();
     let mut most_lopsided: f64 = 0.0;
@@ -48,14 +48,17 @@ fn both_ends_are_equally_unlikely_with_all_else_fitted_anew() {
             let [below, above] = [low, high].map(|end| risen(&diagnosis, unknown, end));
             let key = unknown.parameter().expect("of an effect").key;
             println!("{key} = {value} [{low}, {high}]: {below} and {above}");
-            assert!(below.min(above) > (1.0 - TO) * NORMAL, "{key}: {below} and {above}");
+            assert!(
+                below.min(above) > (1.0 - END_TOLERANCE) * NORMAL_CHI_SQUARE,
+                "{key}: {below} and {above}"
+            );
             unequal.push((below / above).ln().abs());
             most_lopsided = most_lopsided.max(((high - value) / (value - low)).ln().abs());
         }
     }
     unequal.sort_by(f64::total_cmp);
     let three_of_four = unequal[3 * unequal.len() / 4];
-    assert!(three_of_four < TO, "ends differ: {unequal:?}");
+    assert!(three_of_four < END_TOLERANCE, "ends differ: {unequal:?}");
     assert!(most_lopsided > 0.1, "a parabola would have done: {most_lopsided}");
 }
 

@@ -78,11 +78,11 @@ fn reals() -> impl Iterator<Item = &'static Real> {
 /// Altered: stamps of the poses, 0.08 s later. Real: all else.
 #[test]
 fn poses_that_come_later_are_found() {
-    const LATER: f64 = 0.08;
+    const MORE_DELAY: f64 = 0.08;
     for real in reals() {
         let before = &real.diagnosis;
         let after = &real.altered(|run| {
-            run.poses.samples.iter_mut().for_each(|pose| pose.t += LATER);
+            run.poses.samples.iter_mut().for_each(|pose| pose.t += MORE_DELAY);
         });
         // Wheels that follow late, poses that come late and a body that is slow to turn look alike
         // in windows of two seconds: which of them is named differs between both diagnoses. What is
@@ -93,7 +93,10 @@ fn poses_that_come_later_are_found() {
             [before, after].map(|diagnosis| fitted(&diagnosis.models.base.fit, &late));
         let (found, deviation) = (after.0 - before.0, after.1.hypot(before.1));
         println!("{found:.3} ± {deviation:.3} s later");
-        assert!((found - LATER).abs() < 2.6 * deviation && deviation < LATER / 2.0, "{found}");
+        assert!(
+            (found - MORE_DELAY).abs() < 2.6 * deviation && deviation < MORE_DELAY / 2.0,
+            "{found}"
+        );
     }
 }
 
@@ -101,18 +104,18 @@ fn poses_that_come_later_are_found() {
 /// all else.
 #[test]
 fn a_larger_wheel_on_one_side_is_found() {
-    const THINKS: f64 = 0.96;
+    const FILED_SCALE: f64 = 0.96;
     for real in reals() {
         let before = &real.diagnosis;
         let after = &real.altered(|run| {
-            run.tracks.samples.iter_mut().for_each(|reading| reading.v_left *= THINKS);
+            run.tracks.samples.iter_mut().for_each(|reading| reading.v_left *= FILED_SCALE);
         });
         let gain = |diagnosis: &Diagnosis| {
             fitted(&diagnosis.models.best.fit, &[("encoder-scale", "left")]).0
         };
         let found = gain(after) / gain(before);
         println!("{}: {found:.4} times: {:?}, then {:?}", real.vehicle, said(before), said(after));
-        assert!((found * THINKS - 1.0).abs() < 0.005, "{found}");
+        assert!((found * FILED_SCALE - 1.0).abs() < 0.005, "{found}");
         assert!(said(after).iter().any(|one| one.contains("encoder-scale")));
     }
 }

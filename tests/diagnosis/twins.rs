@@ -150,7 +150,7 @@ fn separations(found: &Diagnosis, effect: EffectId) -> Vec<(EffectId, f64)> {
 }
 
 /// Small sizes and far places, where a neighbour does as well.
-const CLOSE: [&str; 10] = [
+const CLOSE_CASES: [&str; 10] = [
     "drivetrain-lag:time_constant_s=0.03",
     "viscous-friction:growth_s_per_m=0.2",
     "stribeck-friction:excess=0.1",
@@ -172,7 +172,7 @@ fn close_neighbours_are_not_split() {
 #[test]
 #[ignore = "twenty drives: cargo test --release -p trackdyn-tests --test diagnosis -- --ignored"]
 fn no_close_neighbours_are_split() {
-    let cases = CLOSE.par_iter().flat_map(|one| {
+    let cases = CLOSE_CASES.par_iter().flat_map(|one| {
         [Preset::Laboratory, Preset::Field].into_par_iter().map(move |preset| (one, preset))
     });
     let wrong: Vec<String> = cases.flat_map(|(one, preset)| over_claims(one, preset)).collect();
@@ -191,23 +191,23 @@ fn in_time() -> Sensors {
 #[test]
 fn a_lag_and_a_late_clock_are_one_answer() {
     /// Delay of either, s.
-    const LATE: f64 = 0.03;
+    const DELAY: f64 = 0.03;
     let lag = EffectId::of("drivetrain-lag").expect("an effect");
     let typical = lag.card().parameters[0].typical;
     let mut split = Vec::new();
     for concealed in ["drivetrain-lag:time_constant_s", "time-offset:delay_s"] {
-        let found = diagnosis(&format!("{concealed}={LATE}"), &in_time());
+        let found = diagnosis(&format!("{concealed}={DELAY}"), &in_time());
         // The part of a lag that a clock, which is free, cannot stand for goes as the square of its
         // time: 1/(1 + s T) − exp(−s T) = (s T)²/2 + …
         let of = &found.limits.resemblance;
         let place = of.effects.iter().position(|effect| *effect == lag);
-        let apart = place.map(|place| of.detection[place] * (LATE / typical).powi(2));
+        let apart = place.map(|place| of.detection[place] * (DELAY / typical).powi(2));
         println!("{concealed}: {apart:?} apart, {:?}", named(&found));
         let late = named(&found).into_iter().filter(|(_, members)| {
             members.contains("time-offset") || members.contains("drivetrain-lag")
         });
         let late: Vec<_> = late.collect();
-        assert!(!late.is_empty(), "{concealed}: {LATE} s are not seen");
+        assert!(!late.is_empty(), "{concealed}: {DELAY} s are not seen");
         let least = Settings::default().answer.min_separation;
         let is_twin = apart.is_some_and(|apart| apart < least);
         if is_twin && late.iter().any(|(_, members)| members.len() < 2) {

@@ -43,7 +43,7 @@ fn set_of(
     examined(&recording, file).expect("an answer")
 }
 
-static PLAIN: LazyLock<Examination> = LazyLock::new(|| set(&[], 3, |_| ()));
+static PLAIN_SET: LazyLock<Examination> = LazyLock::new(|| set(&[], 3, |_| ()));
 
 fn compared(sim: &Examination, real: &Examination) -> Comparison {
     compared_by(&owned(&[]), sim, real)
@@ -59,7 +59,7 @@ fn effect(id: &str) -> EffectId {
 
 #[test]
 fn nothing_differs_between_equal_robots_on_other_schedules() {
-    let found = compared(&PLAIN, &set(&[], 5, |_| ()));
+    let found = compared(&PLAIN_SET, &set(&[], 5, |_| ()));
     let differences: Vec<_> = found.differences.iter().map(|one| one.group.subject).collect();
     assert_eq!(found.status(), Status::NothingDiffers, "{differences:?}, {}", found.place());
     // a ratio of 1.25 is named below
@@ -71,7 +71,7 @@ fn nothing_differs_between_equal_robots_on_other_schedules() {
 
 #[test]
 fn another_friction_ratio_stands_among_the_constants() {
-    let found = compared(&PLAIN, &set(&[], 7, |vehicle| vehicle.friction.across *= 1.25));
+    let found = compared(&PLAIN_SET, &set(&[], 7, |vehicle| vehicle.friction.across *= 1.25));
     let [one] = &found.differences[..] else { panic!("{}: {:?}", found.place(), found.effects) };
     assert_eq!(one.group.subject, Subject::Constants);
     assert!(one.one_of.contains(&effect("friction-anisotropy")), "{:?}", one.one_of);

@@ -1,7 +1,7 @@
 //! What the crates promise, one module each.
 //!
-//! A test that needs private items stands in the file that it tests. All others stand here, those
-//! of the program in `cli`, and the long ones of the diagnosis in `diagnosis`.
+//! What a module does by itself is tested with it. Tests of the program stand in `cli`, and the
+//! long ones of the diagnosis in `diagnosis`.
 
 mod comparisons;
 mod conformance;
@@ -10,10 +10,13 @@ mod driving;
 mod figures;
 mod golden;
 mod library;
+mod localisation;
 mod odometry;
 mod properties;
 mod recording;
 mod recovery;
 mod second_simulator;
+mod settings;
+mod trial_scores;
 mod validation;
 mod viewers;

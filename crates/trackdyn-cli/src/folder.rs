@@ -9,10 +9,10 @@ use std::time::Duration;
 use trackdyn::crates::core::output::TEMPORARY;
 
 /// Folders that are locked until this process ends.
-static LOCKED: Mutex<BTreeMap<PathBuf, File>> = Mutex::new(BTreeMap::new());
+static LOCKED_FOLDERS: Mutex<BTreeMap<PathBuf, File>> = Mutex::new(BTreeMap::new());
 
 /// Age of a temporary file from which no process is writing it any more.
-const ABANDONED: Duration = Duration::from_secs(600);
+const MIN_ABANDONED_AGE: Duration = Duration::from_secs(600);
 
 /// Makes a folder, makes sure that files can be written into it, and keeps other processes of the
 /// program from it until this one ends: results of two would mix. What a process that was killed
@@ -32,7 +32,7 @@ fn lock(path: &Path) -> Result<(), String> {
         // some systems open no folders
         return Ok(());
     };
-    let mut locked = LOCKED.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut locked = LOCKED_FOLDERS.lock().unwrap_or_else(PoisonError::into_inner);
     if locked.contains_key(&place) {
         return Ok(());
     }
@@ -57,7 +57,7 @@ fn remove_leftovers(path: &Path) {
     for entry in entries.flatten() {
         let is_temporary = entry.file_name().to_string_lossy().starts_with(TEMPORARY);
         let age = entry.metadata().and_then(|file| file.modified()).map(|time| time.elapsed());
-        let is_abandoned = age.is_ok_and(|age| age.is_ok_and(|age| age > ABANDONED));
+        let is_abandoned = age.is_ok_and(|age| age.is_ok_and(|age| age > MIN_ABANDONED_AGE));
         if is_temporary && is_abandoned && entry.path().is_file() {
             let _ = std::fs::remove_file(entry.path());
         }

@@ -5,7 +5,7 @@ use std::io;
 use std::sync::{Mutex, PoisonError};
 
 /// What is to be undone, each with the number of its [`Undo`].
-static OPEN: Mutex<Vec<(u64, Action)>> = Mutex::new(Vec::new());
+static OPEN_ACTIONS: Mutex<Vec<(u64, Action)>> = Mutex::new(Vec::new());
 
 type Action = Box<dyn FnOnce() + Send>;
 
@@ -15,7 +15,7 @@ pub struct Undo(u64);
 impl Undo {
     /// Something to do before a signal ends the program.
     pub fn new(action: impl FnOnce() + Send + 'static) -> Self {
-        let mut open = OPEN.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut open = OPEN_ACTIONS.lock().unwrap_or_else(PoisonError::into_inner);
         let number = open.last().map_or(0, |(last, _)| last + 1);
         open.push((number, Box::new(action)));
         Self(number)
@@ -24,7 +24,7 @@ impl Undo {
 
 impl Drop for Undo {
     fn drop(&mut self) {
-        let mut open = OPEN.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut open = OPEN_ACTIONS.lock().unwrap_or_else(PoisonError::into_inner);
         open.retain(|(number, _)| *number != self.0);
     }
 }
@@ -47,7 +47,7 @@ pub fn end_between_files() -> io::Result<()> {
     std::thread::Builder::new().name("signals".to_owned()).spawn(move || {
         for signal in signals.forever() {
             let _rest = files_at_rest();
-            let mut open = OPEN.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut open = OPEN_ACTIONS.lock().unwrap_or_else(PoisonError::into_inner);
             open.drain(..).rev().for_each(|(_, undo)| undo());
             // It returns where the system does not let the program end: the next signal tries
             // again.

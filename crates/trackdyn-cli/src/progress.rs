@@ -13,7 +13,7 @@ use trackdyn::{Error, Observer};
 const PATIENCE: Duration = Duration::from_millis(500);
 
 /// Time between two lines in a log.
-const BETWEEN_LINES: Duration = Duration::from_secs(30);
+const LINE_INTERVAL: Duration = Duration::from_secs(30);
 
 /// A bar that appears where work takes long; where stderr is not a terminal, a line now and then.
 pub struct Progress {
@@ -35,7 +35,7 @@ impl Progress {
         let shown = if stderr().is_terminal() {
             Shown::Bar(OnceLock::new())
         } else {
-            Shown::Lines(Mutex::new(Lines { due: BETWEEN_LINES }))
+            Shown::Lines(Mutex::new(Lines { due: LINE_INTERVAL }))
         };
         Self { total: total as u64, done: AtomicU64::new(0), start: Instant::now(), shown }
     }
@@ -116,7 +116,7 @@ impl Lines {
         if elapsed < self.due || done >= total {
             return None;
         }
-        self.due = elapsed + BETWEEN_LINES;
+        self.due = elapsed + LINE_INTERVAL;
         let now = if stage.is_empty() { String::new() } else { format!(", now {stage}") };
         Some(format!("{done} of {total} done after {} s{now}", elapsed.as_secs()))
     }
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn a_log_gets_a_line_now_and_then_while_work_goes_on() {
-        let mut lines = Lines { due: BETWEEN_LINES };
+        let mut lines = Lines { due: LINE_INTERVAL };
         let mut at =
             |stage, done, seconds| lines.line(stage, (done, 9), Duration::from_secs(seconds));
         assert_eq!(at("", 1, 29), None);

@@ -8,7 +8,7 @@ use std::io::{Write, stderr};
 use std::sync::{Mutex, PoisonError};
 
 /// Notes and warnings that were said.
-static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+static PRINTED_LINES: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
 
 /// Says a line that is no result: where files went.
 ///
@@ -47,7 +47,7 @@ pub fn fail(reason: &str) {
 
 fn once(label: &str, text: Arguments) {
     let text = wrapped(label, &plain(&text.to_string()));
-    let mut said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut said = PRINTED_LINES.lock().unwrap_or_else(PoisonError::into_inner);
     if said.insert(text.clone()) {
         let _ = stderr().lock().write_all(text.as_bytes());
     }

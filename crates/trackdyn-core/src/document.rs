@@ -9,7 +9,7 @@ use std::path::Path;
 use toml::Spanned;
 
 /// Most characters of a key, a value, a line of a file or a message about them in an error.
-const MAX_SHOWN: usize = 1000;
+const MAX_SHOWN_CHARACTERS: usize = 1000;
 
 /// A TOML text and the name under which errors mention it.
 #[derive(Clone, Debug)]
@@ -102,7 +102,7 @@ impl Document {
                 name: self.name.clone(),
                 line,
                 column,
-                message: shortened(error.message(), MAX_SHOWN),
+                message: shortened(error.message(), MAX_SHOWN_CHARACTERS),
                 excerpt: self.excerpt(line),
             }
         })
@@ -145,8 +145,8 @@ impl Document {
         DocumentError::Value {
             name: self.name.clone(),
             line,
-            key: shortened(&key.into(), MAX_SHOWN),
-            value: shortened(self.text.get(span).unwrap_or_default(), MAX_SHOWN),
+            key: shortened(&key.into(), MAX_SHOWN_CHARACTERS),
+            value: shortened(self.text.get(span).unwrap_or_default(), MAX_SHOWN_CHARACTERS),
             expected: expected.into(),
             excerpt: self.excerpt(line),
         }
@@ -161,7 +161,8 @@ impl Document {
     }
 
     fn excerpt(&self, line: usize) -> String {
-        let text = shortened(self.text.lines().nth(line - 1).unwrap_or_default(), MAX_SHOWN);
+        let text =
+            shortened(self.text.lines().nth(line - 1).unwrap_or_default(), MAX_SHOWN_CHARACTERS);
         format!("  |\n{line} | {text}\n  |")
     }
 }

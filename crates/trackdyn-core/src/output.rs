@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{PoisonError, RwLock, RwLockWriteGuard};
 
 /// Read-locked by each writer of a file, and write-locked by who is about to end the program.
-static WRITING: RwLock<()> = RwLock::new(());
+static WRITE_LOCK: RwLock<()> = RwLock::new(());
 
 /// What names of temporary files begin with.
 pub const TEMPORARY: &str = ".trackdyn-";
@@ -73,7 +73,7 @@ fn replace(
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
-    let _writing = WRITING.read().unwrap_or_else(PoisonError::into_inner);
+    let _writing = WRITE_LOCK.read().unwrap_or_else(PoisonError::into_inner);
     let put = || -> io::Result<()> {
         let mut temporary = builder.prefix(TEMPORARY).tempfile_in(folder)?;
         fill(temporary.as_file_mut())?;
@@ -88,7 +88,7 @@ fn replace(
 /// For an end of the program that runs no destructors, such as a signal: inside [`write_file`] it
 /// would leave the temporary file.
 pub fn files_at_rest() -> RwLockWriteGuard<'static, ()> {
-    WRITING.write().unwrap_or_else(PoisonError::into_inner)
+    WRITE_LOCK.write().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Makes a folder and its parents where they are missing, and makes sure that files can be written

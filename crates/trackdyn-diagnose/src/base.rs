@@ -41,7 +41,7 @@ pub struct Base {
 pub const OFFSETS: [Unknown; 3] = [Unknown::Offset(0), Unknown::Offset(1), Unknown::Offset(2)];
 
 /// Numbers that only inertia shows: how far the robot slides, and where its mass is.
-const SHOWN_BY_INERTIA: [Unknown; 3] = [Unknown::FrictionLevel, Unknown::Cog(0), Unknown::Cog(1)];
+const INERTIA_UNKNOWNS: [Unknown; 3] = [Unknown::FrictionLevel, Unknown::Cog(0), Unknown::Cog(1)];
 
 impl Base {
     /// Fits the base of a vehicle to the evidence.
@@ -60,7 +60,7 @@ impl Base {
         }
         // With inertia, the evidence may determine friction level and centre of gravity better than
         // the vehicle file: they are free then.
-        let tried: Vec<Unknown> = nuisances.iter().chain(&SHOWN_BY_INERTIA).copied().collect();
+        let tried: Vec<Unknown> = nuisances.iter().chain(&INERTIA_UNKNOWNS).copied().collect();
         let fit = Fit::at(start.clone(), &tried, evidence, Some(&as_filed.mechanics));
         for (place, &unknown) in tried.iter().enumerate().skip(nuisances.len()) {
             let known = fit.solution.covariance[(place, place)].sqrt();
@@ -355,7 +355,7 @@ mod tests {
     #[test]
     fn the_vehicle_takes_over_what_is_not_claimed() {
         const LEVEL: f64 = 0.1;
-        const TOLERATED: f64 = 0.1;
+        const MAX_DIFFERENCE: f64 = 0.1;
         let mut file = VehicleFile::auriga_alpha();
         let gradient = EffectId::of("friction-gradient");
         let gradient = gradient.expect("an effect");
@@ -368,14 +368,14 @@ mod tests {
         let wanted = with + Vector3::from(hypothesis.offset);
         let product = |vehicle: &Vehicle| vehicle.friction.across * vehicle.friction.along;
         let before = product(&file.vehicle);
-        correct_constants(&mut file, &hypothesis, LEVEL, TOLERATED);
+        correct_constants(&mut file, &hypothesis, LEVEL, MAX_DIFFERENCE);
         let off = spin(&file.vehicle).expect("a spin") - wanted;
         assert!(off.norm() < 1e-6, "{off}");
         assert!((product(&file.vehicle) / before - (2.0 * LEVEL).exp()).abs() < 1e-9);
         // an effect in the file as fitted is not absorbed
         let mut file = VehicleFile::auriga_alpha();
         file.effects.insert(hypothesis.effect(gradient).expect("there").clone());
-        correct_constants(&mut file, &hypothesis, 0.0, TOLERATED);
+        correct_constants(&mut file, &hypothesis, 0.0, MAX_DIFFERENCE);
         let off = spin_with(&file.vehicle, file.effects.clone()).expect("a spin") - wanted;
         assert!(off.norm() < 1e-6, "{off}");
         // nor one that changes what the friction ratio does to the ICRs
@@ -384,7 +384,7 @@ mod tests {
         let hypothesis = hypothesis.without(gradient).with_effect(concentration);
         let mut file = VehicleFile::auriga_alpha();
         file.effects = hypothesis.effects.clone();
-        correct_constants(&mut file, &hypothesis, LEVEL, TOLERATED);
+        correct_constants(&mut file, &hypothesis, LEVEL, MAX_DIFFERENCE);
         let own = spin_with(&hypothesis.vehicle, hypothesis.effects.clone()).expect("a spin");
         let there = spin_with(&file.vehicle, file.effects).expect("a spin");
         let off = there - own - Vector3::from(hypothesis.offset);

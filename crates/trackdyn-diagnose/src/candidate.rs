@@ -222,8 +222,8 @@ fn shapes(parameter: &Parameter, ratio: f64) -> Vec<f64> {
     tried
 }
 
-/// Distance between values that are tried; for a place, its extent where it has one; for a shape,
-/// in its logarithm; for a time, in that which was driven.
+/// Spacing of the values that are tried: of a place its extent, or that of the driving; of a shape
+/// logarithmic; of a time in driving time.
 fn spacing(parameter: &Parameter, extent: Option<f64>, evidence: &Evidence) -> f64 {
     match parameter.role {
         Role::Size { .. } => 0.0,

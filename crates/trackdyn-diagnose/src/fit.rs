@@ -327,9 +327,9 @@ impl Fit {
         Self::linearised(point, &unknowns, evidence)
     }
 
-    /// The point after the largest share of the step that lowers the objective, and the place of
-    /// that share, from the share at place `largest` on; none where no share does, or the promised
-    /// decrease is negligible.
+    /// The point after the first share of the step that lowers the objective, and the index of that
+    /// share. Shares decrease, and are tried from index `largest` on. None where no share lowers
+    /// it, or where the promised decrease is negligible.
     fn next(&self, largest: usize, evidence: &Weighted) -> Option<(Point, usize)> {
         let settings = &evidence.settings().fit;
         if self.solution.gain < settings.min_promised_fall {

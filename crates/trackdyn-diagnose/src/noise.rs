@@ -205,7 +205,7 @@ mod tests {
     use trackdyn_estimate::likely_noise::{Variances, variances_of};
     use trackdyn_recording::TrackSample;
 
-    const TRUE: SegmentNoise = SegmentNoise {
+    const TRUE_NOISE: SegmentNoise = SegmentNoise {
         pose: [9e-6, 4e-6, 4e-6],
         walk: [1e-6, 4e-6, 2.5e-7],
         heading: 2.5e-7,
@@ -225,7 +225,7 @@ mod tests {
             })
             .collect();
         let run = PlannedRun { pose: Pose::default(), tracks, blocks: vec![0] };
-        Evidence::planned(&[run], TRUE, 0.0, &Settings::default(), |evidence| {
+        Evidence::planned(&[run], TRUE_NOISE, 0.0, &Settings::default(), |evidence| {
             let turn = |s: &crate::evidence::Sample| s.speeds.right - s.speeds.left;
             let ahead = |s: &crate::evidence::Sample| f64::midpoint(s.speeds.left, s.speeds.right);
             let samples = evidence.samples().iter();
@@ -276,7 +276,7 @@ mod tests {
         let start = SegmentNoise { pose: [1e-12; 3], walk: [3e-5; 3], heading: 0.0, stamp: 0.0 };
         let noise = most_likely(&evidence, &residual, start, &Variances::zeros());
         for k in 0..3 {
-            assert!((noise.pose[k] / TRUE.pose[k]).ln().abs() < 0.2, "{k}: {noise:?}");
+            assert!((noise.pose[k] / TRUE_NOISE.pose[k]).ln().abs() < 0.2, "{k}: {noise:?}");
         }
     }
 
@@ -304,13 +304,13 @@ mod tests {
                 assert!((found / truth).ln().abs() < 4.0 * deviation, "{seed}: {noise:?}");
             };
             for k in 0..3 {
-                close(noise.pose[k], TRUE.pose[k], 0.05);
+                close(noise.pose[k], TRUE_NOISE.pose[k], 0.05);
             }
             for (k, deviation) in [0.16, 0.16, 0.27].into_iter().enumerate() {
-                close(noise.walk[k], TRUE.walk[k], deviation);
+                close(noise.walk[k], TRUE_NOISE.walk[k], deviation);
             }
             // as strong as the walk in yaw, and it shows to the side as well
-            close(noise.heading, TRUE.heading, 0.27);
+            close(noise.heading, TRUE_NOISE.heading, 0.27);
         }
     }
 
@@ -343,13 +343,13 @@ mod tests {
             let scaled = flexible.left(&evidence.with_scale([2.0; 3]));
             assert_eq!(left.residual, scaled.residual, "noise is looked for whatever its scale");
             let transposed = |column: &mut [Vector3<f64>]| evidence.whiten_transposed(column);
-            let taken = taken(&TRUE, &evidence.motions(), &left.white, transposed);
+            let taken = taken(&TRUE_NOISE, &evidence.motions(), &left.white, transposed);
             assert!((taken.sum() - real(COLUMNS)).abs() < 1e-6 * real(COLUMNS), "{taken}");
-            let unaware = most_likely(&evidence, &left.residual, TRUE, &Variances::zeros());
+            let unaware = most_likely(&evidence, &left.residual, TRUE_NOISE, &Variances::zeros());
             let aware = remaining(&evidence, measured, &flexible, &Watch::none());
             let aware = *aware.expect("not cancelled").noise().expect("one");
             for (sums, found) in logarithms.iter_mut().zip([unaware, aware]) {
-                let off = variances_of(&found) - variances_of(&TRUE);
+                let off = variances_of(&found) - variances_of(&TRUE_NOISE);
                 for (sum, off) in sums.iter_mut().zip(off.iter()) {
                     *sum += off / f64::from(SEEDS);
                 }

@@ -52,7 +52,7 @@ use trackdyn_core::document::{Document, DocumentError};
 use value::Number;
 
 /// Settings of accuracy that were there once. Files that have them are read; they decide nothing.
-const FORMER: [&str; 1] = ["noise.taken_difference"];
+const FORMER_SETTINGS: [&str; 1] = ["noise.taken_difference"];
 
 /// A setting that does not exist, or a value that it cannot have.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -190,7 +190,7 @@ impl Settings {
                 let (path, value) = (path.to_owned(), value.to_string());
                 Err(SettingError::Value { path, value, expected })
             }
-            None if FORMER.contains(&path) => Ok(()),
+            None if FORMER_SETTINGS.contains(&path) => Ok(()),
             None => {
                 let known: Vec<String> =
                     into.names().iter().map(|name| format!("{group}.{name}")).collect();
@@ -309,6 +309,3 @@ impl<'de> Deserialize<'de> for Settings {
         Self::from_table(&Table::deserialize(deserializer)?).map_err(D::Error::custom)
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -242,7 +242,7 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
 
     const BLOCKS: usize = 36;
-    const PER_BLOCK: usize = 30;
+    const SAMPLES_PER_BLOCK: usize = 30;
     const RESAMPLING: Resampling = Resampling { draws: 999, seed: 1 };
 
     /// White noise, and three columns: the first two show in all blocks, the last in one. `sizes`
@@ -250,11 +250,11 @@ mod tests {
     fn evidence(seed: u64, sizes: [f64; 2]) -> Normal {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut normal = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
-        let count = BLOCKS * PER_BLOCK;
+        let count = BLOCKS * SAMPLES_PER_BLOCK;
         let mut columns: Vec<Vec<Vector3<f64>>> = (0..3)
             .map(|_| (0..count).map(|_| Vector3::new(normal(), 0.0, 0.0)).collect())
             .collect();
-        for value in &mut columns[2][PER_BLOCK..] {
+        for value in &mut columns[2][SAMPLES_PER_BLOCK..] {
             *value = Vector3::zeros();
         }
         let mut residual: Vec<Vector3<f64>> =
@@ -265,7 +265,7 @@ mod tests {
                 *value += by * (size / length);
             }
         }
-        let blocks: Vec<usize> = (0..count).map(|index| index / PER_BLOCK).collect();
+        let blocks: Vec<usize> = (0..count).map(|index| index / SAMPLES_PER_BLOCK).collect();
         Normal::new(&Columns {
             residual: &residual,
             columns: &columns,

@@ -4,7 +4,7 @@ use crate::parameters::Parameters;
 use crate::sensor::Nuisance;
 
 /// Largest standard deviation that is told: more says no more.
-const MAX_TOLD: f64 = 100.0;
+const MAX_SHOWN_DEVIATION: f64 = 100.0;
 
 /// Why a recording does not determine a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,10 +53,10 @@ impl std::fmt::Display for Doubt {
             Self::Wide { parameter, deviation, limit } => {
                 let name = Parameters::NAMES[parameter];
                 let unit = if parameter < 3 { " m" } else { "" };
-                let by = if deviation < MAX_TOLD {
+                let by = if deviation < MAX_SHOWN_DEVIATION {
                     format!("{deviation:.2}{unit}")
                 } else {
-                    format!("more than {MAX_TOLD}{unit}")
+                    format!("more than {MAX_SHOWN_DEVIATION}{unit}")
                 };
                 write!(
                     f,
@@ -82,13 +82,17 @@ impl std::fmt::Display for Doubt {
                 "lever-arm cannot be told from the ICRs, which it moves as a whole, by poses and \
                  track speeds of any kind: measure the mount",
             ),
-            Self::NoTranslation => f.write_str(
-                "sensor-yaw shows only where the robot drives ahead as well as turns: drive \
-                 straight, or on circles of different size",
+            Self::NoTranslation => write!(
+                f,
+                "{} shows only where the robot drives ahead as well as turns: drive straight, or \
+                 on circles of different size",
+                Nuisance::SensorYaw
             ),
-            Self::NoChange => f.write_str(
-                "time-offset shows only where track speeds change, and here they change by less \
-                 than their noise: speed up, slow down, begin and end turns",
+            Self::NoChange => write!(
+                f,
+                "{} shows only where track speeds change, and here they change by less than their \
+                 noise: speed up, slow down, begin and end turns",
+                Nuisance::TimeOffset
             ),
             Self::NoLateralSpeed => f.write_str(
                 "y shows in the lateral speed only, of which the table has none: measure v_lateral",

@@ -7,8 +7,8 @@ mod linearisation;
 
 pub use crate::gauss_newton::Loss;
 pub use estimate::Estimate;
+pub(crate) use identifiability::too_wide;
 pub use identifiability::{doubts, lacks, lacks_nuisance, nuisance_doubts};
-pub(crate) use identifiability::{inverse, too_wide};
 
 use crate::error::Error;
 use crate::gauss_newton::{Minimum, Problem, Region, Settings, Status, minimise};

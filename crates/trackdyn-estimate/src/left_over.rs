@@ -80,9 +80,9 @@ impl LeftOver {
         }
     }
 
-    /// The time of a part of a run (s from its first reading) to which all blocks with more of
-    /// their way left than `most` belong, where hardly any is left of a third of the blocks or
-    /// more.
+    /// The time span of a run (s from its first reading) that holds all blocks with more of their
+    /// way left than `most`. None where these are of several runs, where fewer than a third of the
+    /// blocks fit well, or where fewer than a third lie outside the span.
     pub fn where_most(
         parameters: &Parameters,
         observations: &Observations,

@@ -15,7 +15,7 @@
 //! Patterson, Thompson, Biometrika 58(3), 1971 (restricted likelihood);
 //! [`variances`](crate::variances) (steps and tails).
 
-use crate::variances::{Climb, MIN_GAIN, NONE, heavy_tailed};
+use crate::variances::{Climb, LN_ZERO, MIN_GAIN, heavy_tailed};
 use crate::weighting::{Seen, SegmentNoise, Weighting, Whitener};
 use nalgebra::{DMatrix, SVector, Vector3};
 use rayon::prelude::*;
@@ -83,7 +83,7 @@ impl Search {
     pub fn noise_of(&self, variances: &Variances) -> SegmentNoise {
         let pose = std::array::from_fn(|k| variances[k].exp());
         let walk = std::array::from_fn(|k| variances[3 + k].exp().max(self.min_walk * pose[k]));
-        let stamp = if variances[STAMP] > NONE { variances[STAMP].exp() } else { 0.0 };
+        let stamp = if variances[STAMP] > LN_ZERO { variances[STAMP].exp() } else { 0.0 };
         SegmentNoise { pose, walk, heading: variances[6].exp(), stamp }
     }
 
@@ -103,7 +103,7 @@ impl Search {
         let climb = |start: Variances| self.climb.from(start, taken, |at| likelihood.terms(at));
         let from = |noise: SegmentNoise| {
             let mut here = self.start(&noise);
-            here[STAMP] = NONE;
+            here[STAMP] = LN_ZERO;
             climb(here)
         };
         let (first, second) = rayon::join(|| from(measured), || from(likelihood.white_alone()));

@@ -41,9 +41,9 @@ const REACH: usize = 6;
 /// The delays of short logs: every second one.
 const COARSE: usize = 2;
 
-/// Least standard errors of the difference of both distances that shows a response, and of what
-/// the delays gain in blocks that they were not fitted to: by chance, fewer than one log in a
-/// thousand reaches it.
+/// Smallest significance of a response, in standard errors: of the difference of both distances,
+/// and of what the delays gain in blocks that they were not fitted to. Chance reaches it in fewer
+/// than one of a thousand logs.
 const MIN_ERRORS: f64 = 4.0;
 
 /// Smallest difference of both distances, as share of one: a response that moves it by less does
@@ -168,9 +168,9 @@ impl Response {
         Some(recording.with_runs(runs.filter(|run| run.tracks().len() > 1).collect()))
     }
 
-    /// Standard deviation of an error that all turning shares beside a distance of the ICRs for
-    /// these track speeds as measured, as share of it: the interval of that distance then reaches
-    /// the one over seconds, and is as wide as that of a response.
+    /// Standard deviation of a relative scale error that is common to all turning. It widens the
+    /// interval of a distance of the ICRs by the track speeds as measured, `gap` with its standard
+    /// `deviation` (m), until it reaches the distance over seconds and is as wide as its interval.
     pub fn scale_deviation(&self, gap: f64, deviation: f64) -> f64 {
         let off = (gap - self.gap.value) / 2.0;
         let open = if self.is_at_once() { 0.0 } else { self.gap.deviation };

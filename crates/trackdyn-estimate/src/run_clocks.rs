@@ -2,8 +2,8 @@
 //! together, each with a clock of its own.
 //!
 //! # Law
-//! The clock offset of a run by itself is another one where it leaves at most a quarter of what
-//! that of all runs leaves of the variance of its turning, 1 − r².
+//! A run has a clock of its own if its own offset leaves at most a quarter of the variance of its
+//! turning, 1 − r², that the offset of all runs leaves.
 
 use crate::clock::{ClockSearch, clock_offset, left_at};
 use rayon::prelude::*;
@@ -18,7 +18,7 @@ const MIN_DIFFERENCE: f64 = 0.2;
 /// Correlation of a run by its own offset that is clear.
 const MIN_CORRELATION: f64 = 0.95;
 
-/// Largest part of what the offset of all runs leaves that its own one may leave.
+/// Largest part that the own offset of a run may leave of what the offset of all runs leaves.
 const MAX_LEFT: f64 = 0.25;
 
 /// A run with a clock of its own.

@@ -37,8 +37,8 @@ const MIN_YAW: f64 = std::f64::consts::PI;
 /// odometry no better than a guess does.
 const MAX_HALF_WIDTH: f64 = 0.25;
 
-/// Share of the turning against the tracks that is more than noise, and explains why no distance
-/// fits; and one beside which no distance is right, however well it fits.
+/// Share of the turning that is opposite to the tracks. From the first on, it is the reason that is
+/// given where no distance fits; from the second on, every distance is refused.
 const MIN_AGAINST: f64 = 0.2;
 const CONTRADICTS: f64 = 0.4;
 

@@ -22,8 +22,8 @@ use crate::contradiction::Contradiction;
 use crate::doubt::Doubt;
 use crate::error::Error;
 use crate::gauss_newton::{Minimum, Problem, Settings, Status, minimise};
-use crate::least_squares::covariance::{jackknife, larger_deviation, with_deviations};
-use crate::least_squares::{Loss, inverse, too_wide};
+use crate::least_squares::covariance::{inverse, jackknife, larger_deviation, with_deviations};
+use crate::least_squares::{Loss, too_wide};
 use crate::parameters::{Free, Parameters};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use row::{Row, observed};
@@ -35,7 +35,7 @@ use trackdyn_recording::OperatingPoint;
 pub const CHANNELS: usize = 3;
 
 /// Place of y_icr among the parameters.
-const Y: usize = 2;
+const Y_ICR: usize = 2;
 
 /// Speeds that differ by less than this part of their size are alike: tables round to four digits.
 const SPEED_ROUNDING: f64 = 1e-3;
@@ -227,7 +227,7 @@ impl SteadyEstimate {
         let (mut deviations, mut doubts) = (self.deviations(), Vec::new());
         // y shows in the lateral speed alone.
         if self.scatter[1].is_none() {
-            deviations[Y] = 0.0;
+            deviations[Y_ICR] = 0.0;
             doubts.push(Doubt::NoLateralSpeed);
         }
         doubts.extend(too_wide(&deviations, gauge));

@@ -23,10 +23,10 @@ pub struct Climb {
 }
 
 /// Logarithm of a variance that is none: far below anything seen, and without a slope.
-pub const NONE: f64 = -80.0;
+pub const LN_ZERO: f64 = -80.0;
 
 /// Smallest and largest logarithm.
-const LIMITS: [f64; 2] = [NONE, 20.0];
+const LIMITS: [f64; 2] = [LN_ZERO, 20.0];
 
 /// Gain of the log-likelihood that one more variance has by chance once in ten thousand times.
 pub const MIN_GAIN: f64 = 7.6;

@@ -58,7 +58,7 @@ const DROOP: f64 = 1e-4;
 /// Steps in which a roller follows its actuator. Contacts are solved for rollers without actuators:
 /// a light roller would seem to run away from the force that only just accelerates it, and would
 /// drag the hull along at full friction. A rotor (armature) makes it as slow as its actuator.
-const FOLLOWING: f64 = 5.0;
+const ROTOR_LAG_STEPS: f64 = 5.0;
 
 /// The numbers of a roller and its contact.
 struct Suspension {
@@ -184,7 +184,7 @@ fn body(robot: &Robot, roller: &Roller, suspension: &Suspension, count: usize) -
     let Suspension { mass, radius, stiffness, damping, deflection, roll_damping, timestep, .. } =
         suspension;
     // I = k_v r² times the time in which it follows
-    let rotor = gain(robot, roller, count) * radius * radius * FOLLOWING * timestep;
+    let rotor = gain(robot, roller, count) * radius * radius * ROTOR_LAG_STEPS * timestep;
     let name = name(roller);
     let half = digits(Roller::half_width(robot.width));
     let [x, y] = roller.place;
@@ -290,9 +290,9 @@ fn notes(robot: &Robot, rollers: &[Roller], factor: f64, is_unmatched: bool) -> 
     text + &notes::effects(robot, express)
 }
 
-/// Ratio of the impedances of friction and normal force by which friction is full at the slip speed
-/// at which that of the vehicle would be if it rose on as from rest; none larger than for dry
-/// friction.
+/// Ratio of the impedances of friction and normal force that saturates friction at the creep speed
+/// of the vehicle: the slip speed at which its friction would be full if it rose on as it does from
+/// rest. At most that of dry friction.
 fn impedance_ratio(robot: &Robot) -> f64 {
     let [_, of_dry_friction] = slip_limits(robot, IMPEDANCE_RATIO);
     let creep = robot.body.creep_speed.max(of_dry_friction);

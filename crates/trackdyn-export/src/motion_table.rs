@@ -11,7 +11,7 @@ use trackdyn_model::motion_table::TOLERANCE;
 const DIGITS: Digits = Digits::Decimals(10);
 
 /// Coefficients in a line of the header.
-const IN_A_LINE: usize = 16;
+const COEFFICIENTS_PER_LINE: usize = 16;
 
 /// What a table of steady driving leaves out of a vehicle.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -150,7 +150,7 @@ fn header(
     let values = [
         ("@SIZES@", sizes.to_string()),
         ("@ANGLES@", angles.to_string()),
-        ("@COEFFICIENTS@", coefficients.chunks(IN_A_LINE).map(line).collect()),
+        ("@COEFFICIENTS@", coefficients.chunks(COEFFICIENTS_PER_LINE).map(line).collect()),
         ("@GAIN_LEFT@", format!("{:?}", gain.left)),
         ("@GAIN_RIGHT@", format!("{:?}", gain.right)),
         ("@LARGEST@", format!("{largest:?}")),

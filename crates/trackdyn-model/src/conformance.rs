@@ -33,7 +33,8 @@ fn changing_turn() -> Motion {
 }
 
 /// A place, heading and time at which every effect acts.
-const ELSEWHERE: Circumstance = Circumstance { position: [3.0, 0.5], heading: 0.4, time: 60.0 };
+const ACTING_CIRCUMSTANCE: Circumstance =
+    Circumstance { position: [3.0, 0.5], heading: 0.4, time: 60.0 };
 
 #[test]
 fn every_file_is_registered() {
@@ -81,7 +82,7 @@ fn hooks_act_at_the_stages_of_the_card_and_nowhere_else() {
         let mut sensor = Sensor::default();
         effect.sense(&mut sensor);
 
-        let level = Ground::level(&vehicle, &footprint, ELSEWHERE);
+        let level = Ground::level(&vehicle, &footprint, ACTING_CIRCUMSTANCE);
         let mut ground = level;
         effect.ground(&mut ground);
 
@@ -122,12 +123,13 @@ fn hooks_act_at_the_stages_of_the_card_and_nowhere_else() {
 /// Behind a lag, a stopping belt becomes so slow that the reciprocal of its speed overflows.
 #[test]
 fn forces_and_their_derivatives_are_finite_however_slow_the_belts_are() {
-    const SLOW: [f64; 7] = [1e-3, 1e-100, 1e-300, 1e-311, 5e-324, 0.0, -1e-311];
+    const SLOW_SPEEDS: [f64; 7] = [1e-3, 1e-100, 1e-300, 1e-311, 5e-324, 0.0, -1e-311];
     for effect in all() {
         let vehicle = VehicleFile::auriga_alpha().vehicle;
         let model = Model::new(vehicle, Effects::from_iter([effect.clone()]));
-        let ground = model.ground(&ELSEWHERE);
-        let pairs = SLOW.iter().flat_map(|&slow| [0.9, 3.0 * slow].map(|right| (slow, right)));
+        let ground = model.ground(&ACTING_CIRCUMSTANCE);
+        let pairs =
+            SLOW_SPEEDS.iter().flat_map(|&slow| [0.9, 3.0 * slow].map(|right| (slow, right)));
         for (left, right) in pairs {
             let [x, y, turn]: [Dual<3>; 3] = Dual::variables(ICR);
             let motion = Motion::anchored(PerSide::new(left, right), Side::Left, [x, y], turn);
@@ -146,7 +148,7 @@ fn derivatives_of_the_balance_equal_difference_quotients() {
         let vehicle = VehicleFile::auriga_alpha().vehicle;
         let weight = vehicle.weight();
         let model = Model::new(vehicle, Effects::from_iter([effect.clone()]));
-        let ground = model.ground(&ELSEWHERE);
+        let ground = model.ground(&ACTING_CIRCUMSTANCE);
         let exact = total(&model, &ground, &turn(Dual::variables(ICR)));
         for variable in 0..3 {
             let at = |step: f64| {
@@ -178,10 +180,10 @@ fn behaviour(effects: Effects) -> Vec<f64> {
     let vehicle = VehicleFile::auriga_alpha().vehicle;
     let weight = vehicle.mass * trackdyn_core::STANDARD_GRAVITY;
     let model = Model::new(vehicle, effects);
-    let wrench = total(&model, &model.ground(&ELSEWHERE), &changing_turn());
+    let wrench = total(&model, &model.ground(&ACTING_CIRCUMSTANCE), &changing_turn());
     let [force_x, force_y, moment] = wrench.map(|component| component / weight);
     let drive = model.drive();
-    let backward = drive.driven(PerSide::new(-1.0, -1.0), ELSEWHERE.time);
+    let backward = drive.driven(PerSide::new(-1.0, -1.0), ACTING_CIRCUMSTANCE.time);
     let &Sensor { lever: [x, y], yaw, yaw_rate_bias, delay } = model.sensor();
     [
         [force_x, force_y, moment],
@@ -216,9 +218,9 @@ fn an_effect_is_there_where_one_of_its_sizes_is_not_neutral_and_nowhere_else() {
     /// Largest change at neutral sizes, relative to typical ones. It is zero unless the neutral
     /// value is a limit outside the range, which starts at a two-hundredth of the typical size or
     /// less.
-    const LEFT: f64 = 0.01;
+    const MAX_LEFT_SHARE: f64 = 0.01;
     for card in CATALOGUE {
-        let least = LEFT * departure(card, |parameter| parameter.typical);
+        let least = MAX_LEFT_SHARE * departure(card, |parameter| parameter.typical);
         let others: [fn(&Parameter) -> f64; 3] = [|p| p.typical, |p| p.range[0], |p| p.range[1]];
         for other in others {
             let left = departure(card, |parameter| neutral(parameter).unwrap_or(other(parameter)));

@@ -47,22 +47,22 @@ pub use law::{CustomLaw, Outcome};
 use std::sync::{PoisonError, RwLock};
 
 /// All laws that were registered, in order. They stay, so that effects can refer to them.
-static REGISTERED: RwLock<Vec<&'static CustomLaw>> = RwLock::new(Vec::new());
+static REGISTERED_LAWS: RwLock<Vec<&'static CustomLaw>> = RwLock::new(Vec::new());
 
 /// Registers a law for the rest of the process; its number.
 pub(crate) fn register(law: CustomLaw) -> usize {
-    let mut all = REGISTERED.write().unwrap_or_else(PoisonError::into_inner);
+    let mut all = REGISTERED_LAWS.write().unwrap_or_else(PoisonError::into_inner);
     all.push(Box::leak(Box::new(law)));
     all.len() - 1
 }
 
 /// The law of this number, if there is one.
 pub(crate) fn numbered(number: usize) -> Option<&'static CustomLaw> {
-    REGISTERED.read().unwrap_or_else(PoisonError::into_inner).get(number).copied()
+    REGISTERED_LAWS.read().unwrap_or_else(PoisonError::into_inner).get(number).copied()
 }
 
 /// The number of the last law of this name; none where there is no such law.
 pub(crate) fn named(id: &str) -> Option<usize> {
-    let all = REGISTERED.read().unwrap_or_else(PoisonError::into_inner);
+    let all = REGISTERED_LAWS.read().unwrap_or_else(PoisonError::into_inner);
     all.iter().rposition(|law| law.card().id == id)
 }

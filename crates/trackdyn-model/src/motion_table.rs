@@ -34,7 +34,7 @@ const ORDERS: [[usize; 2]; 8] =
 pub const TOLERANCE: f64 = 1e-6;
 
 /// Points each way of a sector at which a table is compared with the model, none of them a node.
-const CHECKED: usize = 15;
+const CHECK_POINTS: usize = 15;
 
 /// Ratio R of the largest to the smallest speed where the table is even in ln ρ: motion at smaller
 /// speeds is in proportion.
@@ -117,7 +117,7 @@ impl MotionTable {
             usable.then(|| shape.beyond(belts, &ros_twist_from_paper(&solution.twist)))
         };
         let checked: Vec<(PerSide<f64>, Option<[f64; 3]>)> = shape
-            .points([CHECKED; 2], |k, _| (real(k) + 0.5) / real(CHECKED))
+            .points([CHECK_POINTS; 2], |k, _| (real(k) + 0.5) / real(CHECK_POINTS))
             .into_par_iter()
             .map(|belts| (belts, solved(belts)))
             .collect();

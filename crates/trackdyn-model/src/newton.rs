@@ -190,7 +190,8 @@ mod tests {
     use super::*;
     use nalgebra::{Matrix3, Vector3};
 
-    const EXACT: Tolerance = Tolerance { converged: 1e-13, rounding: 1e-11, is_trusting: false };
+    const EXACT_TOLERANCE: Tolerance =
+        Tolerance { converged: 1e-13, rounding: 1e-11, is_trusting: false };
 
     fn quadratic(root: Vector3<f64>) -> impl Fn(Vector3<f64>) -> Evaluation<3> {
         move |z| {
@@ -206,7 +207,7 @@ mod tests {
     fn finds_a_root_quadratically() {
         let root = Vector3::new(1.0, -2.0, 0.5);
         let f = quadratic(root);
-        let found = solve(Vector3::zeros(), 10.0, EXACT, &f, |z| f(z).residual);
+        let found = solve(Vector3::zeros(), 10.0, EXACT_TOLERANCE, &f, |z| f(z).residual);
         assert!(found.is_root && found.iterations <= 8);
         assert!((found.point - root).norm() < 1e-12);
     }
@@ -218,13 +219,13 @@ mod tests {
         let begin = |distance: f64| {
             let start = root + Vector3::repeat(distance);
             // the Jacobian of another point
-            from_near((start, f(start)), Matrix3::identity() * 0.9, EXACT, f)
+            from_near((start, f(start)), Matrix3::identity() * 0.9, EXACT_TOLERANCE, f)
         };
         let found = begin(0.1).expect("it is near");
         assert!(found.is_root && (found.point - root).norm() < 1e-12, "{found:?}");
         assert!(begin(10.0).is_none() && begin(f64::NAN).is_none());
         let start = root + Vector3::repeat(0.1);
-        let away = from_near((start, f(start)), -Matrix3::identity(), EXACT, f);
+        let away = from_near((start, f(start)), -Matrix3::identity(), EXACT_TOLERANCE, f);
         assert!(away.is_none());
     }
 
@@ -234,7 +235,7 @@ mod tests {
             residual: Vector3::new(1.0 + z[0] * z[0], z[1], z[2]),
             jacobian: Matrix3::from_diagonal(&Vector3::new(2.0 * z[0], 1.0, 1.0)),
         };
-        let found = solve(Vector3::new(0.7, 0.1, 0.1), 10.0, EXACT, f, |z| f(z).residual);
+        let found = solve(Vector3::new(0.7, 0.1, 0.1), 10.0, EXACT_TOLERANCE, f, |z| f(z).residual);
         assert!(!found.is_root && found.residual >= 1.0);
     }
 }

@@ -52,11 +52,11 @@ const GROWTH: [f64; 2] = [0.3, 4.0];
 
 /// Time for which the load may lie outside the contact, s: a body a metre high falls as an inverted
 /// pendulum does, with √(h/g) = 0.3 s. A jolt of the track speeds lifts a side for less.
-const FALL: f64 = 0.3;
+const FALL_TIME: f64 = 0.3;
 
 /// Why a simulation stops then.
-const TIPS: &str = "the robot tips over: gentler changes of speed, or a lower centre of gravity, \
-                    keep it on the ground";
+const TIPPING_MESSAGE: &str = "the robot tips over: gentler changes of speed, or a lower centre \
+                               of gravity, keep it on the ground";
 
 /// Largest number of halvings of a step for convergence.
 const MAX_HALVINGS: u32 = 10;
@@ -242,7 +242,7 @@ impl<'m> Transient<'m> {
         if halvings == MAX_HALVINGS {
             let unbalanced = "no motion balances the forces on the robot";
             let tips = self.state.tipping > 0.0;
-            return Err(self.stopped(if tips { TIPS } else { unbalanced }));
+            return Err(self.stopped(if tips { TIPPING_MESSAGE } else { unbalanced }));
         }
         self.step(shown, f64::midpoint(self.state.t, end), halvings + 1)?;
         self.step(shown, end, halvings + 1)
@@ -294,8 +294,8 @@ impl<'m> Transient<'m> {
     /// Records where a step led.
     fn arrived(&self, trajectory: &mut Trajectory) -> Result<(), Stopped> {
         trajectory.push(self.moment());
-        if self.state.tipping > FALL {
-            return Err(self.stopped(TIPS));
+        if self.state.tipping > FALL_TIME {
+            return Err(self.stopped(TIPPING_MESSAGE));
         }
         Ok(())
     }

@@ -13,10 +13,10 @@ use std::time::Duration;
 use trackdyn::{Error, Observer, Progress};
 
 /// Time between two looks at signals and progress.
-const LOOK: Duration = Duration::from_millis(50);
+const POLL_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Stack of a thread, bytes: that of a main thread.
-const STACK: usize = 8 << 20;
+const STACK_SIZE: usize = 8 << 20;
 
 /// The threads that share the work, and the process that they are of.
 static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
@@ -28,8 +28,10 @@ fn pool() -> Arc<ThreadPool> {
     match &*pool {
         Some((of, threads)) if *of == process => threads.clone(),
         _ => {
-            let threads =
-                ThreadPoolBuilder::new().stack_size(STACK).build().expect("threads can be started");
+            let threads = ThreadPoolBuilder::new()
+                .stack_size(STACK_SIZE)
+                .build()
+                .expect("threads can be started");
             let threads = Arc::new(threads);
             // the drop of a pool waits for no thread, so that of a parent can go
             *pool = Some((process, threads.clone()));
@@ -77,7 +79,7 @@ pub fn run<T: Send + 'static>(
     let mut told = None;
     loop {
         let (back, got) = py.detach(move || {
-            let got = receiver.recv_timeout(LOOK);
+            let got = receiver.recv_timeout(POLL_INTERVAL);
             (receiver, got)
         });
         receiver = back;

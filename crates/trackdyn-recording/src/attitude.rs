@@ -3,7 +3,7 @@
 use crate::doubt::Axes;
 
 /// Largest tilt of a robot that drives, as its cosine: 60°.
-const MIN_UPRIGHT: f64 = 0.5;
+const MIN_TILT_COSINE: f64 = 0.5;
 
 /// One in so many poses may be tilted by more.
 const MAX_PORTION: u64 = 20;
@@ -38,14 +38,14 @@ impl Attitude {
             return;
         }
         self.all += 1;
-        self.tilted += u64::from(upright < MIN_UPRIGHT);
-        self.inverted += u64::from(upright < -MIN_UPRIGHT);
+        self.tilted += u64::from(upright < MIN_TILT_COSINE);
+        self.inverted += u64::from(upright < -MIN_TILT_COSINE);
         let turned = turned(*self.first.get_or_insert(quaternion), quaternion);
         let [roll, pitch, yaw] = turned.map(f64::abs);
         let others = roll.max(yaw);
         let is_pitched = pitch > MIN_PITCH && pitch > MIN_PITCH_RATIO * others;
         self.pitched += u64::from(is_pitched);
-        self.pitched_far += u64::from(is_pitched && upright < MIN_UPRIGHT);
+        self.pitched_far += u64::from(is_pitched && upright < MIN_TILT_COSINE);
     }
 
     /// How many poses are no robot's, where these are too many for single wrong ones, and which

@@ -14,7 +14,7 @@ pub trait Sample: Copy + Debug + PartialEq {
     const COLUMNS: &'static [&'static str];
     /// How many of the columns, from the first on, a sample is nothing without. Others may be NaN:
     /// not measured.
-    const NEEDED: usize = Self::COLUMNS.len();
+    const NEEDED_COLUMNS: usize = Self::COLUMNS.len();
 
     /// The sample from its columns, in their order.
     fn from_columns(values: &[f64]) -> Self;
@@ -133,7 +133,7 @@ impl Sample for PoseSample {
 impl Sample for ImuSample {
     const STREAM: Stream = Stream::Imu;
     const COLUMNS: &'static [&'static str] = &["t", "gyro_z", "acc_x", "acc_y"];
-    const NEEDED: usize = 2;
+    const NEEDED_COLUMNS: usize = 2;
 
     fn from_columns(values: &[f64]) -> Self {
         Self { t: values[0], gyro_z: values[1], acc_x: values[2], acc_y: values[3] }

@@ -29,7 +29,7 @@ pub(crate) const MAX_ROWS: u64 = 10_000_000;
 pub(crate) const MAX_ROW_SIZE: u64 = 1 << 20;
 
 /// Most characters of a header or a cell in an error.
-const MAX_SHOWN: usize = 1000;
+const MAX_SHOWN_CHARACTERS: usize = 1000;
 
 /// A table that is being read, one row at a time.
 pub struct Table {
@@ -98,7 +98,7 @@ impl Table {
         let lacks = required.iter().any(|name| !header.iter().any(|column| column == name));
         if twice || lacks {
             let expected = format!("{}, each name once", required.join(","));
-            let mut found = shortened(&header.join(","), MAX_SHOWN);
+            let mut found = shortened(&header.join(","), MAX_SHOWN_CHARACTERS);
             if found.is_empty() {
                 "(none)".clone_into(&mut found);
             } else if header.iter().all(|name| any_number(name.as_bytes()).is_some()) {
@@ -265,8 +265,8 @@ impl Table {
             path: self.path.clone(),
             line: self.line(),
             column: column + 1,
-            name: shortened(&self.header[column], MAX_SHOWN),
-            value: shortened(&String::from_utf8_lossy(self.cell(column)), MAX_SHOWN),
+            name: shortened(&self.header[column], MAX_SHOWN_CHARACTERS),
+            value: shortened(&String::from_utf8_lossy(self.cell(column)), MAX_SHOWN_CHARACTERS),
             expected,
         }
     }

@@ -113,14 +113,14 @@ const MAX_ERROR: f64 = 1.3;
 const MAX_ERROR_OF_SMALL: f64 = 1.1;
 
 /// Ratio that no slip explains.
-const MAX_SLIP: f64 = 5.0;
+const MAX_SLIP_RATIO: f64 = 5.0;
 
 /// Radii of wheels and sprockets, m.
 const RADII: [f64; 2] = [0.03, 0.6];
 
 /// A ratio of units that are mixed up: what stands in place of what, and the unit that mends it
 /// where the larger numbers are those of the tracks.
-const MIXED: [(f64, &str, Option<SpeedUnit>); 10] = [
+const MIXED_UNITS: [(f64, &str, Option<SpeedUnit>); 10] = [
     (360.0 / TAU, "degrees in place of radians", Some(SpeedUnit::DegreesPerSecond)),
     (1000.0, "millimetres in place of metres", Some(SpeedUnit::MillimetresPerSecond)),
     (100.0, "centimetres in place of metres", Some(SpeedUnit::CentimetresPerSecond)),
@@ -201,7 +201,7 @@ fn of_tracks(ratio: f64, radius: f64) -> Option<(&'static str, String)> {
     }
     let both = "metres of the tracks in place of radians of the wheels, and as well of other \
                 units, too near to tell";
-    let is_of_turns = ratio < 1.0 && mixed_up(ratio) == Some(MIXED[6].1);
+    let is_of_turns = ratio < 1.0 && mixed_up(ratio) == Some(MIXED_UNITS[6].1);
     if is_of_turns {
         let both = "metres of the tracks in place of radians of the wheels, and as well of turns \
                     in place of radians, too near to tell";
@@ -213,8 +213,11 @@ fn of_tracks(ratio: f64, radius: f64) -> Option<(&'static str, String)> {
 
 /// Units in which a radius is given by mistake: its name, numbers per metre, what stands in place
 /// of what.
-const OF_RADII: [(&str, f64, &str); 3] =
-    [("mm", 1000.0, MIXED[1].1), ("cm", 100.0, MIXED[2].1), ("inches", 39.37, MIXED[3].1)];
+const RADIUS_UNITS: [(&str, f64, &str); 3] = [
+    ("mm", 1000.0, MIXED_UNITS[1].1),
+    ("cm", 100.0, MIXED_UNITS[2].1),
+    ("inches", 39.37, MIXED_UNITS[3].1),
+];
 
 /// What ways of the tracks that are so many times those of the poses mean where speeds are taken
 /// for those of wheels, in this unit and of this radius, m. Names what stands in place of what, and
@@ -227,7 +230,7 @@ pub(crate) fn of_wheels(
     let off = |ratio: f64| ratio.max(1.0 / ratio);
     // no wheel has such a radius, whatever else is wrong
     let is_large = radius > RADII[1];
-    let of_radius = OF_RADII
+    let of_radius = RADIUS_UNITS
         .into_iter()
         .filter(|(_, per_metre, _)| is_large && off(ratio / per_metre) <= MAX_ERROR);
     let nearest =
@@ -263,12 +266,12 @@ pub(crate) fn of_wheels(
 
 /// Largest factor between a ratio and that of two units.
 fn allowed(unit: f64) -> f64 {
-    if unit < MAX_SLIP { MAX_ERROR_OF_SMALL } else { MAX_ERROR }
+    if unit < MAX_SLIP_RATIO { MAX_ERROR_OF_SMALL } else { MAX_ERROR }
 }
 
 fn nearest(size: f64) -> Option<(f64, &'static str, Option<SpeedUnit>)> {
     let off = |unit: f64| (size / unit).max(unit / size);
-    let near = MIXED.into_iter().filter(|(unit, ..)| off(*unit) <= allowed(*unit));
+    let near = MIXED_UNITS.into_iter().filter(|(unit, ..)| off(*unit) <= allowed(*unit));
     near.min_by(|(a, ..), (b, ..)| off(*a).total_cmp(&off(*b)))
 }
 

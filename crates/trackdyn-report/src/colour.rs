@@ -18,7 +18,7 @@ pub const GRID: Rgb = [226, 226, 226];
 
 /// Last index of a [`ColourMap::table`]; even, so that noise about the middle of a range keeps one
 /// colour.
-pub const LAST: u8 = 254;
+pub const LAST_INDEX: u8 = 254;
 
 /// A colour as pages write it.
 pub(crate) fn hex([r, g, b]: Rgb) -> String {
@@ -120,9 +120,9 @@ impl ColourMap {
         })
     }
 
-    /// The colours at places from 0 to 1, [`LAST`] + 1 of them.
+    /// The colours at places from 0 to 1, [`LAST_INDEX`] + 1 of them.
     pub fn table(&self) -> Vec<Rgb> {
-        (0..=LAST).map(|k| self.at(f64::from(k) / f64::from(LAST))).collect()
+        (0..=LAST_INDEX).map(|k| self.at(f64::from(k) / f64::from(LAST_INDEX))).collect()
     }
 }
 

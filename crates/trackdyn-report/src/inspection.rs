@@ -22,8 +22,8 @@ const RESIDUALS: Area = Area::new(PLOT, 1100, WIDTH, 230);
 
 const LEFT_TRACK: usize = 0;
 const RIGHT_TRACK: usize = 1;
-const PREDICTED: usize = 4;
-const RESIDUAL: usize = 2;
+const PREDICTED_COLOUR: usize = 4;
+const RESIDUAL_COLOUR: usize = 2;
 
 /// What an inspection shows over time.
 #[derive(Clone, Copy, Debug)]
@@ -81,8 +81,8 @@ fn legend(of: &Inspected) -> Legend {
         line("yaw rate measured", 7.0, INK),
     ];
     if of.model.is_some() {
-        entries.push(line("predicted", 4.0, entry_colour(PREDICTED)));
-        entries.push(line("residual", 4.0, entry_colour(RESIDUAL)));
+        entries.push(line("predicted", 4.0, entry_colour(PREDICTED_COLOUR)));
+        entries.push(line("residual", 4.0, entry_colour(RESIDUAL_COLOUR)));
     }
     Legend { at: [LEFT, LEGEND], right: RIGHT, size: 26.0, sample: 64, gaps: [14, 50], entries }
 }
@@ -136,7 +136,7 @@ fn rates(of: &Inspected, timeline: &Timeline) -> Panel {
     series(&mut panel, "measured", of, timeline, (&measured, &limits), (7.0, INK));
     if of.model.is_some() {
         let predicted = |rate: &Rate| rate.predicted;
-        let style = (3.5, entry_colour(PREDICTED));
+        let style = (3.5, entry_colour(PREDICTED_COLOUR));
         series(&mut panel, "predicted", of, timeline, (&predicted, &limits), style);
     }
     panel
@@ -160,7 +160,7 @@ fn residuals(of: &Inspected, timeline: &Timeline) -> Panel {
         panel.remark = format!("standard deviation {digits} rad/s, by the median");
     }
     let residual = |rate: &Rate| rate.residual();
-    let style = (3.0, entry_colour(RESIDUAL));
+    let style = (3.0, entry_colour(RESIDUAL_COLOUR));
     series(&mut panel, "residual", of, timeline, (&residual, &limits), style);
     panel
 }

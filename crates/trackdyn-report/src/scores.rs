@@ -52,9 +52,9 @@ fn legend<'a>(names: impl Iterator<Item = &'a str>) -> Legend {
 
 /// Place of an entry beside the others in an interval of length one.
 fn beside(entry: usize, of: usize) -> f64 {
-    const FILLED: f64 = 0.6;
+    const FILLED_SHARE: f64 = 0.6;
     let of = of.max(1);
-    0.5 + FILLED * ((trackdyn_core::real(entry) + 0.5) / trackdyn_core::real(of) - 0.5)
+    0.5 + FILLED_SHARE * ((trackdyn_core::real(entry) + 0.5) / trackdyn_core::real(of) - 0.5)
 }
 
 #[cfg(test)]

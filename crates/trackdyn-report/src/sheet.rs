@@ -16,11 +16,11 @@ pub(crate) const TOP: i32 = 180;
 pub(crate) const FOOT: i32 = 70;
 
 /// Places of the entries among the colours of figures.
-pub(crate) const BEFORE: usize = 0;
-pub(crate) const AFTER: usize = 1;
+pub(crate) const BEFORE_COLOUR: usize = 0;
+pub(crate) const AFTER_COLOUR: usize = 1;
 
 /// Size of the explanation below the title, pixels.
-const EXPLANATION: f32 = 25.0;
+const EXPLANATION_SIZE: f32 = 25.0;
 
 /// An empty figure with these texts around it.
 pub(crate) fn sheet(
@@ -31,11 +31,11 @@ pub(crate) fn sheet(
     caption: &str,
 ) -> Figure {
     let mut figure = Figure::new(name, [WIDTH, height]);
-    let [first, second] = two_lines(explanation, EXPLANATION, RIGHT - LEFT);
+    let [first, second] = two_lines(explanation, EXPLANATION_SIZE, RIGHT - LEFT);
     for (text, size, colour, row) in [
         (title, 40.0, INK, 68),
-        (&first, EXPLANATION, GREY, 112),
-        (&second, EXPLANATION, GREY, 146),
+        (&first, EXPLANATION_SIZE, GREY, 112),
+        (&second, EXPLANATION_SIZE, GREY, 146),
         (caption, 22.0, GREY, height - 26),
     ] {
         line(&mut figure, text, row, Style::new(size).colour(colour));

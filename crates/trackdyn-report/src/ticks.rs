@@ -53,9 +53,9 @@ impl Ticks {
 /// they would be long and alike, as the coordinates of a map are.
 #[expect(clippy::cast_possible_truncation, reason = "a length has a few hundred digits at most")]
 pub fn origin([low, high]: [f64; 2]) -> f64 {
-    const FAR: f64 = 1e4;
+    const MIN_FAR_VALUE: f64 = 1e4;
     let length = high - low;
-    let is_far = low.abs().max(high.abs()) >= FAR.max(10.0 * length);
+    let is_far = low.abs().max(high.abs()) >= MIN_FAR_VALUE.max(10.0 * length);
     if !(is_far && length > 0.0) {
         return 0.0;
     }

@@ -32,7 +32,7 @@ const REPORT: &str = "report.html";
 const LAYERS: &str = "diagnosis";
 
 /// The figures that not every diagnosis has: points have no time and no path.
-const OF_DRIVES: [&str; 2] = ["time.png", "path.png"];
+const DRIVE_FIGURES: [&str; 2] = ["time.png", "path.png"];
 
 /// How to diagnose.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -364,7 +364,7 @@ impl Diagnosis {
     ) -> Result<Vec<Change>, Error> {
         let mut folder = Folder::prepare(folder.as_ref())?;
         folder.write("diagnosis.toml", self.file(provenance).to_toml().as_bytes())?;
-        folder.write(CORRECTED, self.corrected_toml(provenance).as_bytes())?;
+        folder.write(CORRECTED_VEHICLE, self.corrected_toml(provenance).as_bytes())?;
         let Report { figures, html } = self.report(provenance)?;
         let drawn: Vec<Result<Vec<u8>, _>> = figures.par_iter().map(Figure::to_small_png).collect();
         for (figure, drawn) in figures.iter().zip(drawn) {
@@ -372,7 +372,7 @@ impl Diagnosis {
         }
         viewer::remove_earlier(&mut folder, REPORT, LAYERS)?;
         let is_drawn = |file: &str| figures.iter().any(|figure| figure.file() == file);
-        let earlier = OF_DRIVES.into_iter().filter(|file| !is_drawn(file));
+        let earlier = DRIVE_FIGURES.into_iter().filter(|file| !is_drawn(file));
         let earlier: Vec<_> = earlier.map(|file| folder.file(file)).collect();
         folder.remove_earlier(REPORT, earlier)?;
         folder.write(REPORT, html.as_bytes())?;
@@ -381,11 +381,11 @@ impl Diagnosis {
 }
 
 /// Name of the file of the corrected vehicle.
-const CORRECTED: &str = "vehicle.corrected.toml";
+const CORRECTED_VEHICLE: &str = "vehicle.corrected.toml";
 
 /// The file of the corrected vehicle that a diagnosis wrote beside its own file.
 pub fn corrected_beside(diagnosis: &Path) -> PathBuf {
-    diagnosis.with_file_name(CORRECTED)
+    diagnosis.with_file_name(CORRECTED_VEHICLE)
 }
 
 /// A report: a page that carries its figures.

@@ -258,8 +258,8 @@ pub fn motion_table(
     fastest: f64,
     provenance: &Provenance,
 ) -> Result<(MotionTable, [TextFile; 2]), Error> {
-    if !(SLOWEST..=FASTEST).contains(&fastest) {
-        return Err(Error::FastestSpeed { fastest, most: FASTEST });
+    if !(MIN_TABLE_SPEED..=MAX_TABLE_SPEED).contains(&fastest) {
+        return Err(Error::FastestSpeed { fastest, most: MAX_TABLE_SPEED });
     }
     // A table of speeds knows no heading, place or time; of the others it has what is steady.
     let breaks = |effect: &ActiveEffect, any: &[Symmetry]| {
@@ -341,10 +341,10 @@ fn of_vehicle(vehicle: &Vehicle, provenance: &Provenance) -> trackdyn_export::Pr
 }
 
 /// Smallest largest speed of a table, m/s, as of a map.
-const SLOWEST: f64 = trackdyn_model::Grid::MIN_SPEED;
+const MIN_TABLE_SPEED: f64 = trackdyn_model::Grid::MIN_SPEED;
 
 /// Largest speed of a table, m/s.
-const FASTEST: f64 = 100.0;
+const MAX_TABLE_SPEED: f64 = 100.0;
 
 /// Writes exported files into a folder.
 ///

@@ -5,13 +5,13 @@ use trackdyn_core::output::fingerprint;
 use trackdyn_model::VehicleFile;
 
 /// Name of the vehicle of a gauge alone.
-const NOT_GIVEN: &str = "vehicle not given";
+const NO_VEHICLE: &str = "vehicle not given";
 
 /// Smallest gauge of a vehicle, m.
-const SMALLEST: f64 = 1e-6;
+const MIN_GAUGE: f64 = 1e-6;
 
 /// Largest gauge of a vehicle, m.
-const LARGEST: f64 = 100.0;
+const MAX_GAUGE: f64 = 100.0;
 
 /// Distance between the track centre-lines, and the vehicle that has it.
 ///
@@ -36,11 +36,11 @@ impl Gauge {
     /// # Errors
     /// [`Error::Gauge`] for what is no length of a vehicle.
     pub fn new(metres: f64) -> Result<Self, Error> {
-        if !(SMALLEST..=LARGEST).contains(&metres) {
-            return Err(Error::Gauge { metres, most: LARGEST });
+        if !(MIN_GAUGE..=MAX_GAUGE).contains(&metres) {
+            return Err(Error::Gauge { metres, most: MAX_GAUGE });
         }
         let fingerprint = fingerprint(format!("gauge_m = {metres:?}\n").as_bytes());
-        Ok(Self { metres, vehicle: NOT_GIVEN.to_owned(), fingerprint, file: None })
+        Ok(Self { metres, vehicle: NO_VEHICLE.to_owned(), fingerprint, file: None })
     }
 
     /// Its length, m.
@@ -65,8 +65,8 @@ impl Gauge {
 
     /// The vehicle for a caption.
     pub(crate) fn caption(&self) -> String {
-        if self.vehicle == NOT_GIVEN {
-            format!("{NOT_GIVEN}, gauge {} m", self.metres)
+        if self.vehicle == NO_VEHICLE {
+            format!("{NO_VEHICLE}, gauge {} m", self.metres)
         } else {
             format!("vehicle {} {}", self.vehicle, self.fingerprint)
         }

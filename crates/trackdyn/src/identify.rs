@@ -247,8 +247,8 @@ impl Identification {
         })
     }
 
-    /// Why a table of steady points, or a recording, does not even determine the distance of the
-    /// ICRs; none where it does, where a fit says why, and where poses have a yaw alone, of which
+    /// Why not even the distance of the ICRs is determined. None where it is, where the
+    /// [reasons](Self::reasons) of the fits say why, and where poses have a yaw alone, of which
     /// [`contradictions`](Self::contradictions) say why.
     pub fn reason_without_separation(&self) -> Option<String> {
         if let Self::Turning(_) = self {

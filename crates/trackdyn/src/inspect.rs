@@ -245,7 +245,7 @@ impl Inspection {
 }
 
 /// Least time of a run that is parted, s.
-const MIN_PARTED: f64 = 40.0;
+const MIN_PARTED_TIME: f64 = 40.0;
 
 /// The first and the second half of the runs; of a single run, of its time.
 fn parts(motion: &Motion) -> Option<[Part; 2]> {
@@ -261,5 +261,5 @@ fn parts(motion: &Motion) -> Option<[Part; 2]> {
     let whole = motion.duration();
     let half = (whole / 2.0).round();
     let of = |time: [f64; 2]| Part { runs: None, time: Some(time) };
-    (whole >= MIN_PARTED).then(|| [of([0.0, half]), of([half, whole.ceil()])])
+    (whole >= MIN_PARTED_TIME).then(|| [of([0.0, half]), of([half, whole.ceil()])])
 }

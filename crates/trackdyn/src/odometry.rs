@@ -27,7 +27,7 @@ const FILE: &str = "odometry.toml";
 const LAYERS: &str = "odometry";
 
 /// Largest coordinate of an ICR, m, and largest alpha, 1, that a replay takes for meant.
-const LARGEST: f64 = 1e3;
+const MAX_PARAMETER: f64 = 1e3;
 
 /// How to replay.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -108,7 +108,7 @@ fn replay(
     let sets: Vec<_> = std::iter::once(ParameterSet::ideal(gauge.metres())).chain(sets).collect();
     let physics = gauge.file().map(|vehicle| {
         let delay = odometry::in_time::delay(motion, vehicle, &clock);
-        ParameterSet::of_vehicle(ParameterSet::PHYSICS, vehicle, delay)
+        ParameterSet::of_vehicle(ParameterSet::PHYSICS_NAME, vehicle, delay)
     });
     let driven = part.expect_motion()?;
     let compared = |physics: Option<ParameterSet>| {
@@ -315,10 +315,10 @@ impl Replayed {
             ("alpha_left", alpha.left),
             ("alpha_right", alpha.right),
         ];
-        let meant = |value: f64| value.is_finite() && value.abs() <= LARGEST;
+        let meant = |value: f64| value.is_finite() && value.abs() <= MAX_PARAMETER;
         if let Some((key, value)) = numbers.into_iter().find(|(_, value)| !meant(*value)) {
             let file = parameters.name().to_owned();
-            return Err(Error::TooLarge { file, key, value, most: LARGEST });
+            return Err(Error::TooLarge { file, key, value, most: MAX_PARAMETER });
         }
         Ok(Self { parameters: parameters.clone(), set })
     }

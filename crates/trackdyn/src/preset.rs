@@ -8,7 +8,7 @@ pub(crate) const DEFAULT: &str = "auriga-alpha";
 
 /// Names of the other vehicles, which are those of their files in `configs/vehicles`, and the texts
 /// of these files.
-const OTHERS: [(&str, &str); 4] = [
+const OTHER_VEHICLES: [(&str, &str); 4] = [
     ("husky-a200", include_str!("preset/husky-a200.toml")),
     ("marmotte", include_str!("preset/marmotte.toml")),
     ("maxxii", include_str!("preset/maxxii.toml")),
@@ -17,7 +17,7 @@ const OTHERS: [(&str, &str); 4] = [
 
 /// All names, in the order of the alphabet.
 pub(crate) fn names() -> impl Iterator<Item = &'static str> {
-    std::iter::once(DEFAULT).chain(OTHERS.map(|(name, _)| name))
+    std::iter::once(DEFAULT).chain(OTHER_VEHICLES.map(|(name, _)| name))
 }
 
 /// The vehicle of a name; none where no vehicle has it.
@@ -25,7 +25,7 @@ pub(crate) fn named(name: &str) -> Option<VehicleFile> {
     if name == DEFAULT {
         return Some(VehicleFile::auriga_alpha());
     }
-    let (name, text) = OTHERS.into_iter().find(|(other, _)| *other == name)?;
+    let (name, text) = OTHER_VEHICLES.into_iter().find(|(other, _)| *other == name)?;
     VehicleFile::from_document(&Document::new(name, text)).ok()
 }
 

@@ -298,7 +298,7 @@ impl Simulation {
 /// # Errors
 /// [`Error::NotSimulated`].
 pub fn refuse_other(folder: &Path) -> Result<(), Error> {
-    const WRITTEN: [&str; 8] = [
+    const OWN_FILES: [&str; 8] = [
         "recording.toml",
         "tracks.csv",
         "poses.csv",
@@ -309,7 +309,7 @@ pub fn refuse_other(folder: &Path) -> Result<(), Error> {
         "schedule.csv",
     ];
     let is_there = |name: &&str| folder.join(name).exists();
-    match WRITTEN.into_iter().find(is_there).filter(|_| !is_there(&FILE)) {
+    match OWN_FILES.into_iter().find(is_there).filter(|_| !is_there(&FILE)) {
         Some(file) => Err(Error::NotSimulated { folder: folder.to_owned(), file }),
         None => Ok(()),
     }

@@ -141,21 +141,21 @@ fn sqlite() {
     const TOPICS: &str = "CREATE TABLE topics(id INTEGER PRIMARY KEY, name, type, \
         serialization_format); INSERT INTO topics VALUES \
         (1, '/joint_states', 'sensor_msgs/msg/JointState', 'cdr');";
-    const ENDLESS: &str = "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n)";
+    const ENDLESS_ROWS: &str = "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n)";
     let place = prepared();
     let mut all = Vec::new();
     for (name, text) in [
         (
             "view.db3",
             format!(
-                "{TOPICS} CREATE VIEW messages(id, topic_id, timestamp, data) AS {ENDLESS} \
+                "{TOPICS} CREATE VIEW messages(id, topic_id, timestamp, data) AS {ENDLESS_ROWS} \
                  SELECT i, 1, i, zeroblob(100) FROM n;"
             ),
         ),
         (
             "topics.db3",
             format!(
-                "CREATE VIEW topics(id, name, type, serialization_format) AS {ENDLESS} \
+                "CREATE VIEW topics(id, name, type, serialization_format) AS {ENDLESS_ROWS} \
                  SELECT i, '/a', 'b', 'cdr' FROM n; \
                  CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id, timestamp, data);"
             ),
@@ -173,7 +173,7 @@ fn sqlite() {
             format!(
                 "{TOPICS} CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id, timestamp, \
                  data); CREATE VIEW message_definitions(topic_type, encoding, \
-                 encoded_message_definition) AS {ENDLESS} SELECT 'a', 'ros2msg', 'b' FROM n;"
+                 encoded_message_definition) AS {ENDLESS_ROWS} SELECT 'a', 'ros2msg', 'b' FROM n;"
             ),
         ),
     ] {

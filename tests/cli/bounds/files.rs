@@ -192,17 +192,17 @@ fn drives_without_end() {
 #[test]
 fn escape_codes_and_directions_of_writing() {
     const CODES: &str = "\\u001b[2J\\u202e\\u0007";
-    const RAW: &str = "\u{1b}[2J\u{202e}\u{7}";
+    const RAW_CODES: &str = "\u{1b}[2J\u{202e}\u{7}";
     let place = prepared();
     let robot = project_text("configs/vehicles/auriga-alpha.toml");
     let auriga = "name = \"Auriga-alpha\"";
     place.write("name.toml", &robot.replace(auriga, &format!("name = \"{CODES}\"")));
     place.write("key.toml", &format!("\"{CODES}\" = 1\n{robot}"));
     place.write("effect.toml", &format!("{robot}\n[effect.\"{CODES}\"]\n"));
-    place.write("comment.toml", &format!("{robot}\n# {RAW}\n"));
-    place.write("table.csv", &format!("t,v_left,v_right{RAW}\n0,1,1\n"));
-    place.write("cell.csv", &format!("t,v_left,v_right\n0,{RAW},1\n"));
-    place.write("room.tum", &format!("0 0 0 0 0 0 0 {RAW}\n"));
+    place.write("comment.toml", &format!("{robot}\n# {RAW_CODES}\n"));
+    place.write("table.csv", &format!("t,v_left,v_right{RAW_CODES}\n0,1,1\n"));
+    place.write("cell.csv", &format!("t,v_left,v_right\n0,{RAW_CODES},1\n"));
+    place.write("room.tum", &format!("0 0 0 0 0 0 0 {RAW_CODES}\n"));
     let manifest = String::from_utf8(place.read("rec/recording.toml")).expect("text");
     let robot_line = manifest.lines().find(|line| line.starts_with("robot = ")).expect("a robot");
     place.write(

@@ -3,7 +3,7 @@
 use super::{Case, check, prepared};
 use crate::{Workplace, project_text};
 
-const ABSURD: [&str; 7] = ["5e-324", "1e-300", "1e308", "-1e308", "-0", "nan", "inf"];
+const ABSURD_NUMBERS: [&str; 7] = ["5e-324", "1e-300", "1e308", "-1e308", "-0", "nan", "inf"];
 
 /// Options that take a number.
 const OPTIONS: [&str; 40] = [
@@ -52,7 +52,7 @@ const OPTIONS: [&str; 40] = [
 #[test]
 fn options() {
     let place = prepared();
-    let of = |option: &&str| ABSURD.map(|number| Case::ended(option.replace("{}", number)));
+    let of = |option: &&str| ABSURD_NUMBERS.map(|number| Case::ended(option.replace("{}", number)));
     let all: Vec<Case> = OPTIONS.iter().flat_map(of).collect();
     check(&place, &all);
 }
@@ -113,7 +113,7 @@ fn cells_of_a_recording() {
     check(&place, &all);
 }
 
-/// The pool of threads is made before any work: 10⁵ of them would keep the machine busy for minutes.
+/// Threads are started before any work: 10⁵ of them would keep the machine busy for minutes.
 #[test]
 fn threads() {
     let place = Workplace::new();

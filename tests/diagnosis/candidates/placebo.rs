@@ -22,7 +22,7 @@ use trackdyn_diagnose::{Resampling, Settings};
 const SIGNS: usize = 1000;
 
 /// Residuals larger than the noise by this much make the noise larger.
-const TOLERATED: f64 = 1.1;
+const MAX_NOISE_RATIO: f64 = 1.1;
 
 /// The placebos that would be claimed with this residual.
 fn claimed(library: &Library, residual: &[Vector3<f64>], seed: u64) -> Vec<usize> {
@@ -69,7 +69,7 @@ impl Library {
     /// noise.
     fn scale(&self, residual: &[Vector3<f64>]) -> [f64; 3] {
         let scale = self.evidence.residual_scale(residual);
-        let grows = scale.iter().any(|scale| *scale > TOLERATED);
+        let grows = scale.iter().any(|scale| *scale > MAX_NOISE_RATIO);
         if grows { scale.map(|scale| scale.max(1.0)) } else { [1.0; 3] }
     }
 }

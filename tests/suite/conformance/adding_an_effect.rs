@@ -37,10 +37,11 @@ fn additions(page: &str) -> Vec<Addition> {
     found
 }
 
-/// The first command of the page.
-fn command(page: &str) -> Vec<&str> {
+/// The commands of the page, without what takes their output.
+fn commands(page: &str) -> Vec<Vec<&str>> {
     let (_, after) = page.split_once("```sh\n").expect("a block of commands");
-    after.lines().next().expect("a command").split_whitespace().collect()
+    let lines = after.lines().take_while(|line| *line != "```");
+    lines.map(|line| line.split_whitespace().take_while(|word| *word != ">").collect()).collect()
 }
 
 /// All files below a folder of the project, by their paths from its root.
@@ -98,20 +99,31 @@ fn the_page_adds_an_effect_to_model_second_simulator_and_trial() {
             }
         }
     }
-    // The libraries that the project uses are compiled already, in the same profile.
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("adding-an-effect");
     write(&folder, &files);
+    let commands = commands(PAGE);
+    // The others compile all tests, or the whole program.
+    let [tests, _, _, list] = commands.as_slice() else { panic!("{commands:?}") };
+    let said = run(&folder, tests);
+    for test in ["cards_are_complete", "every_law_has_a_dose", "every_mechanism_has_a_place"] {
+        assert!(said.contains(test), "{test} did not run:\n{said}");
+    }
+    let said = run(&folder, list);
+    assert!(said.contains("\n| hull-drag | F = −c v/2"), "{said}");
+}
+
+/// What a command of the page prints in the copy.
+fn run(folder: &Path, command: &[&str]) -> String {
+    // The libraries that the project uses are compiled already, in the same profile.
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().expect("the target folder");
     let is_release = std::env::current_exe().expect("a path").starts_with(target.join("release"));
-    let words = command(PAGE);
-    let words = words.iter().skip(1).filter(|word| is_release || **word != "--release");
-    let (words, filter): (Vec<&&str>, Vec<&&str>) = {
-        let words: Vec<&&str> = words.collect();
-        let end = words.iter().position(|word| ***word == *"--").expect("names of tests");
-        (words[..end].to_vec(), words[end..].to_vec())
-    };
+    let words = command.iter().copied().skip(1);
+    let words = words.filter(|word| is_release || *word != "--release");
+    // An example runs by itself: cargo runs none of several packages.
+    let words: Vec<&str> = words.map(|word| if word == "run" { "build" } else { word }).collect();
+    let end = words.iter().position(|word| *word == "--").unwrap_or(words.len());
     // The libraries are those of the project if they have its features. The program asks for all of
-    // them (`compiled_once`). It has no library of its own: with `--lib`, none of it is compiled.
+    // them (`compiled_once`). It has no library and no example: none of it is compiled.
     let features = ["--package", "trackdyn-cli"];
     // Not optimised, the crates of the copy compile in a fraction of the time, and their few tests
     // take longer.
@@ -119,22 +131,32 @@ fn the_page_adds_an_effect_to_model_second_simulator_and_trial() {
         let key = format!("profile.release.package.trackdyn-{}.opt-level", of.name);
         ["--config".to_owned(), format!("{key}=0")]
     });
-    let run = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-        .args(words)
-        .args(features)
-        .args(["--offline", "--target-dir"])
-        .arg(target)
-        .args(plain)
-        .args(filter)
-        // Set where tests are timed (`--report-time`); all libraries would be compiled anew by it,
-        // and again without it.
-        .env_remove("RUSTC_BOOTSTRAP")
-        .current_dir(&folder)
-        .output()
-        .expect("cargo runs");
-    let said = String::from_utf8_lossy(&run.stdout);
-    assert!(run.status.success(), "{said}\n{}", String::from_utf8_lossy(&run.stderr));
-    for test in ["cards_are_complete", "every_law_has_a_dose", "every_mechanism_has_a_place"] {
-        assert!(said.contains(test), "{test} did not run:\n{said}");
+    let said = printed(
+        Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+            .args(&words[..end])
+            .args(features)
+            .args(["--offline", "--target-dir"])
+            .arg(target)
+            .args(plain)
+            .args(&words[end..])
+            // Set where tests are timed (`--report-time`); all libraries would be compiled anew by
+            // it, and again without it.
+            .env_remove("RUSTC_BOOTSTRAP")
+            .current_dir(folder),
+    );
+    match words.iter().position(|word| *word == "--example") {
+        Some(at) => {
+            let profile = if is_release { "release" } else { "debug" };
+            printed(&mut Command::new(target.join(profile).join("examples").join(words[at + 1])))
+        }
+        None => said,
     }
+}
+
+/// What a program prints, which has to succeed.
+fn printed(command: &mut Command) -> String {
+    let run = command.output().expect("it runs");
+    let said = String::from_utf8_lossy(&run.stdout).into_owned();
+    assert!(run.status.success(), "{said}\n{}", String::from_utf8_lossy(&run.stderr));
+    said
 }

@@ -4,7 +4,7 @@ use super::crates::{Crate, all};
 use std::path::Path;
 
 /// Which crates of the project each crate may use, without `trackdyn-`.
-const ALLOWED: [(&str, &[&str]); 14] = [
+const ALLOWED_USES: [(&str, &[&str]); 14] = [
     ("core", &[]),
     ("model", &["core"]),
     ("recording", &["core"]),
@@ -31,7 +31,7 @@ const LABORATORY: [&str; 3] = ["second-simulator", "blind-trial", "cli"];
 fn crates_depend_in_one_direction() {
     for Crate { name, manifest, .. } in all() {
         let table: toml::Table = manifest.parse().expect("TOML");
-        let allowed = ALLOWED.iter().find(|(of, _)| *of == name);
+        let allowed = ALLOWED_USES.iter().find(|(of, _)| *of == name);
         let (_, allowed) = allowed.unwrap_or_else(|| panic!("{name} has no line in this test"));
         for dependency in table["dependencies"].as_table().expect("dependencies").keys() {
             if !dependency.starts_with("trackdyn") {

@@ -37,7 +37,8 @@ pub fn all() -> Vec<Crate> {
 impl Crate {
     /// Paths below `src` and texts of its sources, sorted.
     pub fn sources(&self) -> Vec<(PathBuf, String)> {
-        sources_below(&self.folder.join("src"))
+        let is_source = |path: &Path| path.extension().is_some_and(|ending| ending == "rs");
+        files_below(&self.folder.join("src"), &is_source)
     }
 
     /// Paths below `src` and code of the sources that are compiled for more than tests, sorted.
@@ -50,8 +51,12 @@ impl Crate {
 
 /// A text without comments and without what is compiled for tests only.
 pub fn code(text: &str) -> String {
-    let tests = text.find("#[cfg(test)]\nmod tests {").unwrap_or(text.len());
-    let lines = text[..tests].lines().map(|line| line.split("//").next().unwrap_or_default());
+    let is_of_tests =
+        |after: &str| after.lines().next().is_some_and(|l| l.ends_with("mod tests {"));
+    let mut marks = text.match_indices("#[cfg(test)]\n");
+    let tests = marks.find(|(at, mark)| is_of_tests(&text[at + mark.len()..]));
+    let end = tests.map_or(text.len(), |(at, _)| at);
+    let lines = text[..end].lines().map(|line| line.split("//").next().unwrap_or_default());
     lines.collect::<Vec<_>>().join("\n")
 }
 
@@ -72,17 +77,21 @@ fn declares_for_tests(text: &str, module: &str) -> bool {
     text.contains(&format!("#[cfg(test)]\nmod {module};"))
 }
 
-/// Paths below a folder and texts of the sources in it, sorted.
-pub fn sources_below(root: &Path) -> Vec<(PathBuf, String)> {
+/// Paths below a folder and texts of the files in it that are wanted, sorted. What cargo and git
+/// keep there is passed over.
+pub fn files_below(root: &Path, is_wanted: &dyn Fn(&Path) -> bool) -> Vec<(PathBuf, String)> {
     let mut folders = vec![root.to_owned()];
     let mut found = Vec::new();
     while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).expect("sources") {
+        for entry in fs::read_dir(folder).expect("a folder") {
             let path = entry.expect("readable").path();
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
             if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|ending| ending == "rs") {
-                let text = fs::read_to_string(&path).expect("a source");
+                if name != "target" && !name.starts_with('.') {
+                    folders.push(path);
+                }
+            } else if is_wanted(&path) {
+                let text = fs::read_to_string(&path).expect("a text");
                 found.push((path.strip_prefix(root).expect("below").to_owned(), text));
             }
         }

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// What cargo-deny reads, too.
-const ALLOWED: &str = include_str!("../../../.ci/deny.toml");
+const ALLOWED_LICENCES: &str = include_str!("../../../.ci/deny.toml");
 
 /// Whether one of the alternatives of a licence expression is all allowed. `/` is an old `OR`.
 fn is_allowed(expression: &str, allowed: &BTreeSet<String>) -> bool {
@@ -17,7 +17,7 @@ fn is_allowed(expression: &str, allowed: &BTreeSet<String>) -> bool {
 
 #[test]
 fn every_dependency_has_a_licence_that_is_allowed() {
-    let table: toml::Table = ALLOWED.parse().expect("TOML");
+    let table: toml::Table = ALLOWED_LICENCES.parse().expect("TOML");
     let allowed = table["licenses"]["allow"].as_array().expect("a list");
     let allowed: BTreeSet<String> =
         allowed.iter().map(|one| one.as_str().expect("a name").to_owned()).collect();

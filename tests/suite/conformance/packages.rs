@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 /// Files of the project that lie in a crate too, for it embeds them.
-const EMBEDDED: [(&str, &str); 8] = [
+const EMBEDDED_FILES: [(&str, &str); 8] = [
     ("configs/vehicles/auriga-alpha.toml", "crates/trackdyn-model/src/auriga-alpha.toml"),
     ("configs/vehicles/husky-a200.toml", "crates/trackdyn/src/preset/husky-a200.toml"),
     ("configs/vehicles/marmotte.toml", "crates/trackdyn/src/preset/marmotte.toml"),
@@ -30,7 +30,7 @@ fn package(of: &Crate) -> Option<toml::Table> {
 
 #[test]
 fn embedded_files_are_those_of_configs() {
-    for (original, copy) in EMBEDDED {
+    for (original, copy) in EMBEDDED_FILES {
         assert!(read(original) == read(copy), "{copy} is not {original}: copy it");
     }
 }

@@ -11,7 +11,7 @@ use std::path::{Component, Path, PathBuf};
 const PLACES: [&str; 4] = ["README.md", "benches", "crates", "docs"];
 
 /// Links of the book to what is built beside it (docs/README.md says how).
-const BUILT: [&str; 2] = ["../trackdyn/index.html", "../python/trackdyn.html"];
+const BUILT_PAGES: [&str; 2] = ["../trackdyn/index.html", "../python/trackdyn.html"];
 
 /// What links of a page need: its own, and the places in it that others may lead to.
 #[derive(Default)]
@@ -79,7 +79,7 @@ fn plain(path: &Path) -> Option<PathBuf> {
 /// What is wrong with a link on a page.
 fn fault(pages: &BTreeMap<PathBuf, Page>, top: &Path, from: &Path, link: &str) -> Option<String> {
     let is_of_book = from.starts_with("docs");
-    if link.contains("://") || is_of_book && BUILT.contains(&link) {
+    if link.contains("://") || is_of_book && BUILT_PAGES.contains(&link) {
         return None;
     }
     let (file, anchor) = link.split_once('#').unwrap_or((link, ""));

@@ -9,10 +9,10 @@ use trackdyn_model::{Icrs, Stationary, Status, Transient};
 use trackdyn_tests::auriga;
 
 /// Change of an ICR, m, that breaks a symmetry: what a spin test can see.
-const BROKEN: f64 = 1e-3;
+const MIN_BREAK: f64 = 1e-3;
 
 /// Change that rounding and quadrature may cause.
-const INTACT: f64 = 1e-5;
+const MAX_ROUNDING: f64 = 1e-5;
 
 /// Same-sign arc, counter-rotation and spin at full speed. One track is never stopped: that is the
 /// border between patterns.
@@ -29,7 +29,7 @@ fn model(effect: Option<ActiveEffect>) -> Model {
 }
 
 /// Where and when the robot stands.
-const HERE: Circumstance = Circumstance { position: [0.0, 0.0], heading: 0.0, time: 0.0 };
+const ORIGIN: Circumstance = Circumstance { position: [0.0, 0.0], heading: 0.0, time: 0.0 };
 
 /// The ICRs that encoders and pose sensor show in steady motion.
 fn icrs(model: &Model, (left, right): (f64, f64), circumstance: Circumstance) -> Icrs {
@@ -70,14 +70,14 @@ fn distance(a: Icrs, b: Icrs) -> f64 {
 
 /// How far a straight command leads astray, over its distance; a turn counts over 1 m.
 fn astray(model: &Model, speed: f64) -> f64 {
-    let solution = Stationary::new(model, &HERE).solve(PerSide::new(speed, speed));
+    let solution = Stationary::new(model, &ORIGIN).solve(PerSide::new(speed, speed));
     let twist = model.sensor().reported(&solution.twist);
     (twist.v_x / speed).abs().max((twist.v_y / speed - 1.0).abs()).max((twist.w / speed).abs())
 }
 
 /// Largest change under the transformation of a symmetry: of an ICR, m, or of a straight run, 1.
 fn change(model: &Model, symmetry: Symmetry) -> f64 {
-    change_at(HERE, model, symmetry)
+    change_at(ORIGIN, model, symmetry)
 }
 
 /// The driving at another place and time.
@@ -154,7 +154,7 @@ fn every_effect_breaks_what_its_card_says() {
         println!();
         for (symmetry, change) in Symmetry::ALL.into_iter().zip(changes) {
             let breaks = card.breaks.contains(&symmetry);
-            if (breaks && change < BROKEN) || (!breaks && change > INTACT) {
+            if (breaks && change < MIN_BREAK) || (!breaks && change > MAX_ROUNDING) {
                 wrong.push(format!("{} {}: {change:.2e} m", card.id, symmetry.letter()));
             }
         }
@@ -165,7 +165,8 @@ fn every_effect_breaks_what_its_card_says() {
 #[test]
 fn every_term_of_a_form_breaks_what_it_says() {
     /// Where and when a term that knows place and time is there.
-    const ELSEWHERE: Circumstance = Circumstance { position: [2.0, 1.2], heading: 0.0, time: 30.0 };
+    const ACTING_CIRCUMSTANCE: Circumstance =
+        Circumstance { position: [2.0, 1.2], heading: 0.0, time: 30.0 };
     let mut wrong = Vec::new();
     for card in CATALOGUE {
         let mut of_all = Vec::new();
@@ -176,7 +177,8 @@ fn every_term_of_a_form_breaks_what_it_says() {
             let settings: Vec<_> = coefficients.map(|one| (one.key, -one.typical)).collect();
             let effect = ActiveEffect::new(card.id, &settings).expect("coefficients");
             let model = model(Some(effect));
-            let changes = Symmetry::ALL.map(|symmetry| change_at(ELSEWHERE, &model, symmetry));
+            let changes =
+                Symmetry::ALL.map(|symmetry| change_at(ACTING_CIRCUMSTANCE, &model, symmetry));
             print!("{:36}", term.key);
             for change in changes {
                 print!("{:8.2}", 1e3 * change);
@@ -184,7 +186,7 @@ fn every_term_of_a_form_breaks_what_it_says() {
             println!();
             for (symmetry, change) in Symmetry::ALL.into_iter().zip(changes) {
                 let breaks = term.breaks.contains(&symmetry);
-                if (breaks && change < BROKEN) || (!breaks && change > INTACT) {
+                if (breaks && change < MIN_BREAK) || (!breaks && change > MAX_ROUNDING) {
                     wrong.push(format!("{} {}: {change:.2e} m", term.key, symmetry.letter()));
                 }
             }

@@ -8,7 +8,7 @@ const ENTRIES: [&str; 3] = [
     include_str!("../../../docs/trials/entry-40.csv"),
     include_str!("../../../docs/trials/entry-41.csv"),
 ];
-const MEASURED: &str = include_str!("../../../docs/measured.md");
+const MEASURED_PAGE: &str = include_str!("../../../docs/measured.md");
 const README: &str = include_str!("../../../README.md");
 
 /// A case and what was said of it.
@@ -113,7 +113,7 @@ fn published_scores_are_those_of_the_published_lines() {
     ];
     for (what, rate) in &counted {
         let is_there = |line: &str| line.contains(what) && line.contains(rate.as_str());
-        assert!(MEASURED.lines().any(is_there), "docs/measured.md: {what}: {rate}");
+        assert!(MEASURED_PAGE.lines().any(is_there), "docs/measured.md: {what}: {rate}");
         let is_said = README.contains(rate.as_str()) || *what == "absent laws beside allowed";
         assert!(is_said, "README.md: {what}: {rate}");
     }

@@ -132,7 +132,7 @@ fn parts(html: &str) -> (String, Vec<&str>) {
 /// Names of the elements that are open at the end of a page, or the first that is closed out of
 /// turn.
 fn unclosed(html: &str) -> Vec<String> {
-    const EMPTY: [&str; 4] = ["meta", "br", "!DOCTYPE", "input"];
+    const EMPTY_ELEMENTS: [&str; 4] = ["meta", "br", "!DOCTYPE", "input"];
     let mut open: Vec<String> = Vec::new();
     for (start, _) in html.match_indices('<') {
         let tag = &html[start + 1..];
@@ -143,7 +143,7 @@ fn unclosed(html: &str) -> Vec<String> {
             }
         } else if !tag.ends_with('/') {
             let name = tag.split_whitespace().next().expect("a name");
-            if !EMPTY.contains(&name) {
+            if !EMPTY_ELEMENTS.contains(&name) {
                 open.push(name.to_owned());
             }
         }

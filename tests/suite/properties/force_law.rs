@@ -8,7 +8,7 @@ use trackdyn_tests::auriga;
 
 const SPEEDS: [(f64, f64); 4] = [(0.2, 0.6), (-0.3, 0.5), (-0.4, 0.4), (0.7, 0.1)];
 
-const HERE: Circumstance = Circumstance { position: [2.0, -1.0], heading: 0.7, time: 40.0 };
+const CIRCUMSTANCE: Circumstance = Circumstance { position: [2.0, -1.0], heading: 0.7, time: 40.0 };
 
 fn icrs(model: &Model, (left, right): (f64, f64), here: &Circumstance) -> [f64; 3] {
     let solution = Stationary::new(model, here).solve(PerSide::new(left, right));
@@ -67,7 +67,7 @@ fn a_force_that_is_constant_in_the_world_is_a_slope() {
     let force = auriga([0.0, 0.0], &[&force]);
     for speeds in SPEEDS {
         for heading in [0.0, 1.3, 4.0] {
-            let here = Circumstance { heading, ..HERE };
+            let here = Circumstance { heading, ..CIRCUMSTANCE };
             let (one, other) = (icrs(&slope, speeds, &here), icrs(&force, speeds, &here));
             for (one, other) in one.into_iter().zip(other) {
                 assert!((one - other).abs() < 1e-9, "{speeds:?} {heading}: {one} {other}");
@@ -82,7 +82,8 @@ fn mass_changes_no_motion() {
     let heavy = Vehicle { mass: 2.0 * light.mass, ..light.clone() };
     let [light, heavy] = [light, heavy].map(|vehicle| Model::new(vehicle, all_terms(0.2)));
     for speeds in SPEEDS {
-        let (one, other) = (icrs(&light, speeds, &HERE), icrs(&heavy, speeds, &HERE));
+        let (one, other) =
+            (icrs(&light, speeds, &CIRCUMSTANCE), icrs(&heavy, speeds, &CIRCUMSTANCE));
         for (one, other) in one.into_iter().zip(other) {
             assert!((one - other).abs() < 1e-9, "{speeds:?}: {one} {other}");
         }
@@ -91,29 +92,30 @@ fn mass_changes_no_motion() {
 
 #[test]
 fn a_larger_robot_at_the_same_froude_number_moves_alike() {
-    const LARGER: f64 = 4.0;
+    const SIZE_FACTOR: f64 = 4.0;
     let small = auriga([0.01, 0.04], &[]).vehicle().clone();
     let RunningGear::Track { contact_length, belt_width } = small.running_gear else {
         unreachable!("Auriga-alpha has tracks")
     };
     let large = Vehicle {
-        gauge: LARGER * small.gauge,
-        cog: small.cog.map(|x| LARGER * x),
+        gauge: SIZE_FACTOR * small.gauge,
+        cog: small.cog.map(|x| SIZE_FACTOR * x),
         running_gear: RunningGear::Track {
-            contact_length: LARGER * contact_length,
-            belt_width: LARGER * belt_width,
+            contact_length: SIZE_FACTOR * contact_length,
+            belt_width: SIZE_FACTOR * belt_width,
         },
         ..small.clone()
     };
     let [small, large] = [small, large].map(|vehicle| Model::new(vehicle, all_terms(0.2)));
-    let there = Circumstance { position: HERE.position.map(|x| LARGER * x), ..HERE };
+    let there =
+        Circumstance { position: CIRCUMSTANCE.position.map(|x| SIZE_FACTOR * x), ..CIRCUMSTANCE };
     for (left, right) in SPEEDS {
         // v²/(g ℓ) is the same
-        let faster = LARGER.sqrt();
-        let one = icrs(&small, (left, right), &HERE);
+        let faster = SIZE_FACTOR.sqrt();
+        let one = icrs(&small, (left, right), &CIRCUMSTANCE);
         let other = icrs(&large, (faster * left, faster * right), &there);
         for (one, other) in one.into_iter().zip(other) {
-            assert!((LARGER * one - other).abs() < 1e-8, "{left} {right}: {one} {other}");
+            assert!((SIZE_FACTOR * one - other).abs() < 1e-8, "{left} {right}: {one} {other}");
         }
     }
 }

@@ -36,7 +36,7 @@ fn slam(step: usize, t: f64) -> Option<Message> {
 }
 
 const SLAM: Topic = ("/slam", "geometry_msgs/msg/PoseStamped", &slam);
-const DYNAMIC: &str = "control_msgs/msg/DynamicJointState";
+const DYNAMIC_STATE: &str = "control_msgs/msg/DynamicJointState";
 
 #[track_caller]
 fn assert_speeds(recording: &trackdyn_recording::Recording, near: f64) {
@@ -63,7 +63,7 @@ fn joints_with_interfaces_are_chosen_by_words_and_signals() {
             ],
         ))
     };
-    let path = bag(folder.path(), &[("/dynamic_joint_states", DYNAMIC, &make), SLAM]);
+    let path = bag(folder.path(), &[("/dynamic_joint_states", DYNAMIC_STATE, &make), SLAM]);
     let recording = rosbag::read(&path, &options()).expect("readable");
     assert_speeds(&recording, 1e-9);
     assert_poses(&recording, 1e-9);
@@ -86,7 +86,7 @@ fn a_joint_state_comes_before_interfaces_unless_they_are_named() {
         let joints = [("left", vec![("velocity", l)]), ("right", vec![("velocity", r)])];
         Some(dynamic(t, &joints))
     };
-    let path = bag(folder.path(), &[("/dynamic", DYNAMIC, &twice), JOINTS, SLAM]);
+    let path = bag(folder.path(), &[("/dynamic", DYNAMIC_STATE, &twice), JOINTS, SLAM]);
     assert_speeds(&rosbag::read(&path, &options()).expect("readable"), 1e-9);
     let named = RosbagOptions {
         tracks_topic: Some("/dynamic".to_owned()),

@@ -110,12 +110,16 @@ fn semicolons_decimal_commas_compasses_and_held_poses_are_read() {
 /// π/180 a of longitude and π/180 a (1 - e²) of latitude.
 #[test]
 fn nanoseconds_stand_apart_and_positions_may_be_degrees() {
-    const BY_LONGITUDE: f64 = 111_319.490_793;
-    const BY_LATITUDE: f64 = 110_574.275_822;
+    const METRES_PER_LONGITUDE: f64 = 111_319.490_793;
+    const METRES_PER_LATITUDE: f64 = 110_574.275_822;
     let of = |longitude: f64| {
         table("sec,nanosec,l,r,lat,lon,yaw", move |[t, l, r, x, y, yaw], is_new| {
             let pose = if is_new {
-                format!("{},{},{yaw}", y / BY_LATITUDE, longitude + x / BY_LONGITUDE)
+                format!(
+                    "{},{},{yaw}",
+                    y / METRES_PER_LATITUDE,
+                    longitude + x / METRES_PER_LONGITUDE
+                )
             } else {
                 "0,0,".to_owned()
             };
@@ -133,7 +137,7 @@ fn nanoseconds_stand_apart_and_positions_may_be_degrees() {
     let (_place, path) =
         table("sec,nanosec,l,r,lat,lon,yaw\ns,ns,m/s,m/s,deg,deg,rad", |row, _| {
             let [t, l, r, x, y, yaw] = row;
-            let [south, east] = [-y / BY_LATITUDE, 10.0 + x / BY_LONGITUDE];
+            let [south, east] = [-y / METRES_PER_LATITUDE, 10.0 + x / METRES_PER_LONGITUDE];
             format!("{t},0,{l},{r},{south},{east},{yaw}")
         });
     let text = text.replace("lat=", "lat=-");

@@ -24,7 +24,7 @@ Pair[2] pairs
 Empty nothing
 Actuator[] actuators
 float64 voltage 24.0";
-const NESTED: [(&str, &str); 3] = [
+const NESTED_DEFINITIONS: [(&str, &str); 3] = [
     ("my_msgs/Pair", "int8 a\nfloat32 b"),
     ("my_msgs/Empty", ""),
     ("my_msgs/Actuator", "string name\nint32 rpm\nfloat32 speed\nuint64 count"),
@@ -34,7 +34,8 @@ const KIND: &str = "my_msgs/msg/Status";
 /// The definition as a bag has it.
 fn definition() -> String {
     let rule = "=".repeat(80);
-    let nested = NESTED.iter().map(|(kind, text)| format!("\n{rule}\nMSG: {kind}\n{text}"));
+    let nested =
+        NESTED_DEFINITIONS.iter().map(|(kind, text)| format!("\n{rule}\nMSG: {kind}\n{text}"));
     format!("{STATUS}{}", nested.collect::<String>())
 }
 
@@ -189,7 +190,7 @@ fn definitions_come_from_a_folder_where_a_bag_has_none() {
     let package = folder.path().join("src/my_msgs/msg");
     std::fs::create_dir_all(&package).expect("a folder");
     let main = [("my_msgs/Status", STATUS)];
-    for (kind, text) in main.iter().chain(&NESTED) {
+    for (kind, text) in main.iter().chain(&NESTED_DEFINITIONS) {
         let name = kind.strip_prefix("my_msgs/").expect("of the package");
         std::fs::write(package.join(format!("{name}.msg")), text).expect("written");
     }

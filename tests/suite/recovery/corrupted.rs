@@ -10,7 +10,7 @@ use trackdyn_estimate::{Free, Interval};
 use trackdyn_recording::{Recording, Run, Source, TrackSample, Warning};
 
 /// Largest share of the readings that are wrong.
-const MAX_BAD: f64 = 0.02;
+const MAX_BAD_SHARE: f64 = 0.02;
 
 /// What can be wrong with a reading of one side.
 #[derive(Clone, Copy, Debug)]
@@ -63,7 +63,7 @@ impl Fault {
 /// The recording with a random number of faults of these kinds.
 fn corrupted(recording: &Recording, kinds: &[Fault], seed: u64) -> Recording {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let bad = random.random_range(1..=share(MAX_BAD, recording));
+    let bad = random.random_range(1..=share(MAX_BAD_SHARE, recording));
     spoiled(recording, kinds, bad, &mut random)
 }
 
@@ -99,7 +99,7 @@ fn spoiled(
 const DRIVES: u64 = 20;
 
 /// These drives, each with its x_r − x_l.
-static WHOLE: LazyLock<Vec<(Recording, Interval)>> = LazyLock::new(|| {
+static WHOLE_DRIVES: LazyLock<Vec<(Recording, Interval)>> = LazyLock::new(|| {
     let whole = (0..DRIVES).into_par_iter().map(|seed| {
         let whole = drive(seed);
         let good = fit(&whole, Free::Icrs).expect("settles").gap();
@@ -116,7 +116,7 @@ fn off(hurt: &Recording, good: &Interval) -> f64 {
 
 /// By how many standard errors x_r − x_l moves, over this many logs: the largest and the mean.
 fn moved(kinds: &[Fault], logs: u64) -> [f64; 2] {
-    let cases: Vec<_> = (0..logs).zip(WHOLE.iter().cycle()).collect();
+    let cases: Vec<_> = (0..logs).zip(WHOLE_DRIVES.iter().cycle()).collect();
     let moved: Vec<f64> = cases
         .into_par_iter()
         .map(|(seed, (whole, good))| off(&corrupted(whole, kinds, seed), good))
@@ -172,7 +172,7 @@ fn slips_do_not_pull_the_clock() {
 /// A level that no track has, for three readings up to more than a second.
 #[test]
 fn a_wide_spike_moves_the_distance_by_less_than_its_standard_error() {
-    let cases: Vec<(u64, _)> = (0..24).zip(WHOLE.iter().cycle()).collect();
+    let cases: Vec<(u64, _)> = (0..24).zip(WHOLE_DRIVES.iter().cycle()).collect();
     cases.into_par_iter().for_each(|(seed, (whole, good))| {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut runs: Vec<_> = whole.runs().iter().cloned().map(Run::into_rows).collect();

@@ -6,11 +6,11 @@ use trackdyn_core::{PerSide, Plant, Pose, Trajectory};
 use trackdyn_second_simulator::{ActiveMechanism, Form, MECHANISMS, Robot, Setup, Sheet, Symmetry};
 
 /// Change of an ICR, m, that breaks a symmetry: what a spin test can see.
-const BROKEN: f64 = 1e-3;
+const MIN_BREAK: f64 = 1e-3;
 
 /// Change that the shoes' draw and the shoes that come and go may cause in the base case, m: a
 /// hundredth of a shoe.
-const INTACT: f64 = 2.5e-4;
+const MAX_SHOE_CHANGE: f64 = 2.5e-4;
 
 /// Arc, counter-rotation and spin, m/s.
 const PATTERNS: [(f64, f64); 3] = [(0.4, 1.0), (-0.4, 1.0), (-1.0, 1.0)];
@@ -143,9 +143,9 @@ fn the_base_case_breaks_nothing() {
     let subject = Subject::new(Vec::new());
     let bases = subject.bases();
     for symmetry in &Symmetry::ALL[..7] {
-        let change = subject.change(*symmetry, &bases, INTACT);
+        let change = subject.change(*symmetry, &bases, MAX_SHOE_CHANGE);
         println!("{}: {:.2} mm", symmetry.letter(), 1e3 * change);
-        assert!(change < INTACT, "{}: {change} m", symmetry.letter());
+        assert!(change < MAX_SHOE_CHANGE, "{}: {change} m", symmetry.letter());
     }
     assert!(subject.strays() < 1e-5 && subject.lags() < 1e-4);
 }
@@ -178,7 +178,7 @@ fn every_mechanism_breaks_what_its_sheet_says_in_all_forms() {
             Symmetry::ALL.map(|symmetry| match symmetry {
                 Symmetry::Straight => subject.strays(),
                 Symmetry::Transient => subject.lags(),
-                _ => subject.change(symmetry, &bases, BROKEN),
+                _ => subject.change(symmetry, &bases, MIN_BREAK),
             })
         })
         .collect();
@@ -197,7 +197,7 @@ fn every_mechanism_breaks_what_its_sheet_says_in_all_forms() {
                 .iter()
                 .any(|of| sheet.breaks.contains(of));
             let hidden = symmetry == Symmetry::Transient && moves;
-            if breaks != (change > BROKEN) && !hidden {
+            if breaks != (change > MIN_BREAK) && !hidden {
                 let letter = symmetry.letter();
                 wrong.push(format!("{}{number} {letter}: {change:.2e} m", sheet.id));
             }

@@ -5,18 +5,18 @@ use trackdyn_model::{Vehicle, VehicleFile};
 use trackdyn_second_simulator::{ActiveMechanism, Robot, Setup};
 
 /// Way of the slower belt until every shoe has come to the ground in the turn, m.
-const SETTLED: f64 = 0.8;
+const SETTLING_WAY: f64 = 0.8;
 
 /// Time beside it until mass has followed, s: seven times v/(μ g) of a spin at 1 m/s.
-const FOLLOWED: f64 = 1.0;
+const FOLLOWING_TIME: f64 = 1.0;
 
 /// Way of the slower belt in which the turn is measured, m: one shoe, over which the ripple of
 /// shoes that come and go averages out.
-const MEASURED: f64 = 0.025;
+const MEASURED_WAY: f64 = 0.025;
 
 /// Distance and angle to which a turn is brought to its target, m and rad: mechanisms of typical
 /// size change an ICR by less than 0.1 m in a radian.
-const NEAR: f64 = 2e-3;
+const TARGET_DISTANCE: f64 = 2e-3;
 
 /// Auriga-alpha with this centre of gravity, in the friction of the reference numbers.
 pub fn auriga(cog: [f64; 2]) -> Vehicle {
@@ -63,7 +63,7 @@ impl Turn<'_> {
             let middle = truth.pose_at(f64::midpoint(span[0], span[1]));
             let missed = middle.relative(&self.target);
             *start = middle.relative(&from);
-            if missed.yaw.abs() < NEAR && missed.x.hypot(missed.y) < NEAR {
+            if missed.yaw.abs() < TARGET_DISTANCE && missed.x.hypot(missed.y) < TARGET_DISTANCE {
                 break (truth, reported, span);
             }
         };
@@ -79,10 +79,13 @@ impl Turn<'_> {
     fn drive(&self, start: Pose) -> (Trajectory, Trajectory, [f64; 2]) {
         let (left, right) = self.speeds;
         let slower = left.abs().min(right.abs());
-        let begin = self.at - 0.5 * MEASURED / slower;
-        let end = begin + MEASURED / slower;
-        let setup =
-            Setup { start, start_time: begin - FOLLOWED - SETTLED / slower, ..self.setup.clone() };
+        let begin = self.at - 0.5 * MEASURED_WAY / slower;
+        let end = begin + MEASURED_WAY / slower;
+        let setup = Setup {
+            start,
+            start_time: begin - FOLLOWING_TIME - SETTLING_WAY / slower,
+            ..self.setup.clone()
+        };
         let mut robot = Robot::new(self.vehicle, self.active, &setup).expect("a robot");
         let mut truth = Trajectory::default();
         truth.push(robot.moment());

@@ -15,7 +15,7 @@ use trackdyn_tests::real_recording;
 const GOAL: f64 = 2.0;
 
 /// Difference in standard errors of ours that one of five recordings has in 5 % of the cases.
-const MAX_BY_CHANCE: f64 = 2.6;
+const MAX_CHANCE_DIFFERENCE: f64 = 2.6;
 
 /// Which runs count.
 type Choice = fn(&Recording) -> RunList;
@@ -41,7 +41,7 @@ fn distances_agree_with_independent_fits() {
         let row =
             format!("| {:.3} ({:.3}) | {independent} | {error:+.1} % |", gap.value, gap.deviation);
         println!("{name} {row}");
-        let chance = 100.0 * MAX_BY_CHANCE * gap.deviation / independent;
+        let chance = 100.0 * MAX_CHANCE_DIFFERENCE * gap.deviation / independent;
         rows.push((name, row, error, chance));
     }
     let page = include_str!("../../../docs/validation.md").lines().collect::<Vec<_>>();
@@ -56,7 +56,7 @@ fn distances_agree_with_independent_fits() {
 /// independent fit is of its yaw rates.
 #[test]
 fn a_gyroscope_halves_the_error_of_the_distance_on_grass() {
-    const BY_GYROSCOPE: f64 = 1.823;
+    const GYROSCOPE_DISTANCE: f64 = 1.823;
     let Some(recording) = real_recording("warthog-grass") else { return };
     let clock = Clock::of(&recording, None).expect("turns");
     let corrected = with_gyroscope(&recording, clock.tau()).expect("it serves");
@@ -67,13 +67,13 @@ fn a_gyroscope_halves_the_error_of_the_distance_on_grass() {
     let without = gap(&recording, 0.0);
     let with = gap(&corrected.recording, corrected.gyroscope.scale_deviation);
     let row = |of: &Interval| {
-        let error = 100.0 * (of.value / BY_GYROSCOPE - 1.0);
+        let error = 100.0 * (of.value / GYROSCOPE_DISTANCE - 1.0);
         format!("{:.3} ({:.3}), {error:+.1} %", of.value, of.deviation)
     };
     let sentence = format!("{}; with `--gyroscope` {}", row(&without), row(&with));
     println!("{sentence}");
     assert!(with.deviation < 0.75 * without.deviation, "{sentence}");
-    assert!((with.value / BY_GYROSCOPE - 1.0).abs() < GOAL / 100.0, "{sentence}");
+    assert!((with.value / GYROSCOPE_DISTANCE - 1.0).abs() < GOAL / 100.0, "{sentence}");
     let page = include_str!("../../../docs/validation.md").split_whitespace();
     let page = page.collect::<Vec<_>>().join(" ");
     assert!(page.contains(&sentence), "docs/validation.md: {sentence}");

@@ -9,7 +9,7 @@ use trackdyn_tests::{auriga, parse_effects};
 
 /// Difference of an ICR in both, over the distance of the two ICRs. A shoe is a fortieth of the
 /// contact, and shoes that act at their middles are off by the square of that.
-const AGREE: f64 = 1.0 / (40.0 * 40.0);
+const MAX_DIFFERENCE: f64 = 1.0 / (40.0 * 40.0);
 
 const SPEEDS: [(f64, f64); 3] = [(0.3, 0.9), (-0.4, 1.0), (0.8, -0.8)];
 
@@ -50,7 +50,7 @@ fn compare(vehicle: &Vehicle, effects: &[&str]) {
         let off = time.iter().zip(balance).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         println!("{} {effects:?} {speeds:?}: {:.3} mm", vehicle.name, 1e3 * off);
         assert!(
-            off < AGREE * (balance[1] - balance[0]),
+            off < MAX_DIFFERENCE * (balance[1] - balance[0]),
             "{effects:?} {speeds:?}: {time:?} in time, {balance:?} in balance"
         );
     }

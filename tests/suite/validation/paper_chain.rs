@@ -14,8 +14,10 @@ mod models;
 mod robot;
 mod scans;
 
-use errors::{Errors, QUANTITIES, RELATIVE, RELATIVE_YAW, errors, ratio, root_mean_square};
-use models::{NAMES, ORDER, ORDER_OF_YAW, Trained, WITH_ALPHA};
+use errors::{
+    Errors, QUANTITIES, RELATIVE_POSITION, RELATIVE_YAW, errors, ratio, root_mean_square,
+};
+use models::{FIT_WITH_ALPHA, NAMES, ORDER, ORDER_OF_YAW, Trained};
 use rayon::prelude::*;
 use trackdyn_core::PerSide;
 use trackdyn_drive::ScheduleKind;
@@ -66,7 +68,8 @@ fn models_come_in_the_order_of_the_paper() {
         println!("| {name} | {} |", row.join(" | "));
     }
     println!("| better | worse | quantity | ratio |");
-    for (quantity, pairs) in [(RELATIVE, ORDER.as_slice()), (RELATIVE_YAW, &ORDER_OF_YAW)] {
+    for (quantity, pairs) in [(RELATIVE_POSITION, ORDER.as_slice()), (RELATIVE_YAW, &ORDER_OF_YAW)]
+    {
         for &(better, worse) in pairs {
             let [mean, low, high] = ratio(&of(better, quantity), &of(worse, quantity));
             let (name, other) = (NAMES[better], NAMES[worse]);
@@ -81,7 +84,7 @@ fn models_come_in_the_order_of_the_paper() {
 fn parameters_are_those_of_the_motions(chains: &[Chain]) {
     println!("| seed | x_l | x_r | y [mm] | alpha_l | alpha_r | driven x_l | x_r | y [mm] | rms |");
     for (seed, Chain { trained, driven, .. }) in SEEDS.iter().zip(chains) {
-        let estimate = trained.estimate(WITH_ALPHA);
+        let estimate = trained.estimate(FIT_WITH_ALPHA);
         let truth = [driven.x_left, driven.x_right, driven.y, ALPHA.left, ALPHA.right];
         let scale = [1e3, 1e3, 1e3, 1.0, 1.0];
         let cells: Vec<String> = (0..5)

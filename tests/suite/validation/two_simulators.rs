@@ -10,7 +10,7 @@ use trackdyn_second_simulator::{ActiveMechanism, Form, Robot, Setup, sheet_of};
 
 /// Least cosine between what both simulators make of an effect. Where the laws are the same it is
 /// 1.000; a hull that leans with a delay has 0.99.
-const ALIKE: f64 = 0.95;
+const MIN_ALIKE_COSINE: f64 = 0.95;
 
 /// Largest ratio of what both simulators make of an effect.
 const SIZE_RATIO: f64 = 2.0;
@@ -22,16 +22,16 @@ type Shape = &'static [(&'static str, f64)];
 /// simulator's: creep of shoes and creep of a belt, half of an excess that is lost sooner or later;
 /// an arc tangent; and Wong's hump on ground that remembers how far it was sheared where the robot
 /// now turns differently.
-const OF_ANOTHER_FORM: [(&str, Shape, f64); 3] = [
+const OTHER_FORMS: [(&str, Shape, f64); 3] = [
     ("stribeck-friction", &[], 0.85),
-    ("friction-creep", &[("sharpness", 1.0)], ALIKE),
+    ("friction-creep", &[("sharpness", 1.0)], MIN_ALIKE_COSINE),
     ("shear-displacement", &[("residual", 0.8)], 0.5),
 ];
 
 /// The shape in which an effect is compared, and the least cosine.
 fn form(id: &str) -> (Shape, f64) {
-    let form = OF_ANOTHER_FORM.iter().find(|(other, ..)| *other == id);
-    form.map_or((&[], ALIKE), |(_, shape, alike)| (*shape, *alike))
+    let form = OTHER_FORMS.iter().find(|(other, ..)| *other == id);
+    form.map_or((&[], MIN_ALIKE_COSINE), |(_, shape, alike)| (*shape, *alike))
 }
 
 /// Turns both ways, forward and backward, slow and fast, and straights, with gentle changes.
@@ -122,7 +122,7 @@ struct Compared {
 }
 
 /// The robot on which nothing acts already.
-static PLAIN: LazyLock<Compared> =
+static PLAIN_ROBOT: LazyLock<Compared> =
     LazyLock::new(|| Compared::new(VehicleFile::auriga_alpha().vehicle, &[]));
 
 impl Compared {
@@ -183,12 +183,12 @@ impl Compared {
 
 #[test]
 fn effects_do_the_same_in_both_simulators() {
-    assert_eq!(PLAIN.unlike(), [""; 0]);
+    assert_eq!(PLAIN_ROBOT.unlike(), [""; 0]);
 }
 
 /// Least cosine between an effect and a drawn form of its law: the least that the plain form of
 /// sheared soil has.
-const RELATED: f64 = 0.5;
+const MIN_RELATED_COSINE: f64 = 0.5;
 
 /// As [`SIZE_RATIO`], of a drawn form: a size means the same at one speed, time or traction, and
 /// steps may stand below all speeds of a drive or above them.
@@ -197,7 +197,8 @@ const DRAWN_SIZE_RATIO: f64 = 4.0;
 #[test]
 fn drawn_forms_do_about_the_same_at_the_same_size() {
     for number in 1..=3 {
-        let unlike = PLAIN.unlike_in(Form::Drawn(number), |_| RELATED, DRAWN_SIZE_RATIO);
+        let unlike =
+            PLAIN_ROBOT.unlike_in(Form::Drawn(number), |_| MIN_RELATED_COSINE, DRAWN_SIZE_RATIO);
         assert_eq!(unlike, [""; 0], "form {number}");
     }
 }

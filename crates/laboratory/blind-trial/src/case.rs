@@ -26,9 +26,8 @@ use trackdyn_second_simulator::{ActiveMechanism, Sheet, sheet_of};
 
 /// Draws of a case before it is given up.
 pub(crate) const ATTEMPTS: u64 = 12;
-/// Share of the robots without one effect of inertia, and as many without each other one, where
-/// none is concealed: an effect that is absent from a vehicle file is not for that reason
-/// concealed.
+/// Share of the robots whose vehicle file lacks a given effect of inertia, where no such effect is
+/// concealed. So absence from a file does not tell that an effect is concealed.
 const ABSENT_INERTIA_SHARE: f64 = 0.06;
 /// Share of nulls without one effect of inertia. Such effects are concealed in a tenth of the other
 /// cases: absence from the file is as frequent in both.

@@ -16,7 +16,7 @@ pub struct Entry(String);
 
 impl Entry {
     /// Name of this project's own diagnosis.
-    pub const OWN: &str = "trackdyn";
+    pub const OWN_NAME: &str = "trackdyn";
 
     /// Its name.
     pub fn name(&self) -> &str {
@@ -44,7 +44,7 @@ impl Entry {
     }
 
     fn qualified(&self, stem: &str, extension: &str) -> String {
-        if self.0 == Self::OWN {
+        if self.0 == Self::OWN_NAME {
             format!("{stem}{extension}")
         } else {
             format!("{stem}.{}{extension}", self.0)
@@ -54,7 +54,7 @@ impl Entry {
 
 impl Default for Entry {
     fn default() -> Self {
-        Self(Self::OWN.to_owned())
+        Self(Self::OWN_NAME.to_owned())
     }
 }
 

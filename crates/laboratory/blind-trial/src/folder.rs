@@ -37,7 +37,7 @@ use trackdyn_second_simulator::MECHANISMS;
 use trackdyn_second_simulator::sheet::{Filed, Trial};
 
 /// The sealed answers of older trials.
-const SEALED: &str = "answers.sealed";
+const SEALED_ANSWERS: &str = "answers.sealed";
 /// The published hash.
 pub const COMMITMENT: &str = "commitment.txt";
 /// The recording of a case.
@@ -92,7 +92,7 @@ pub(crate) fn place(
 
 /// Whether a trial was made in a folder, or may have been.
 pub fn is_made(trial: &Path) -> bool {
-    trial.join(COMMITMENT).exists() || trial.join(SEALED).exists()
+    trial.join(COMMITMENT).exists() || trial.join(SEALED_ANSWERS).exists()
 }
 
 /// Writes the answers beside the file of the key, where nobody but its owner reads them, and
@@ -119,7 +119,7 @@ pub fn write_answers(trial: &Path, answers: &Answers, key: &Path) -> Result<Comm
 /// those that were committed to; [`Error::File`], [`Error::Key`], [`Error::Document`].
 pub fn open_answers(trial: &Path, key: &Path) -> Result<(Answers, String), Error> {
     let commitment = commitment(trial)?;
-    let sealed = trial.join(SEALED);
+    let sealed = trial.join(SEALED_ANSWERS);
     let text = if sealed.exists() {
         let bytes = input::bytes(&sealed, MAX_FILE_SIZE).map_err(Error::file(sealed))?;
         old_seal::unseal(&bytes, &Key::read(key)?, &commitment)?

@@ -43,7 +43,7 @@ mod tests {
     use std::path::Path;
 
     /// A trial of one case that the program of November 2026 made, with its key.
-    const SEALED: &[u8] = include_bytes!("../fixtures/old-seal/answers.sealed");
+    const SEALED_TRIAL: &[u8] = include_bytes!("../fixtures/old-seal/answers.sealed");
     const COMMITMENT: &str = include_str!("../fixtures/old-seal/commitment.txt");
     const KEY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/old-seal/answers.key");
 
@@ -57,14 +57,14 @@ mod tests {
 
     #[test]
     fn answers_that_were_sealed_then_open_with_their_key_only() {
-        let text = unseal(SEALED, &key(), &commitment()).expect("opens");
+        let text = unseal(SEALED_TRIAL, &key(), &commitment()).expect("opens");
         let answers = commitment().open(&text).expect("answers");
         assert_eq!((answers.seed, answers.cases.len()), (6, 1));
         assert_eq!(answers.cases[0].stratum, Stratum::PlainNull);
         assert!(answers.salt.is_empty());
-        let other = unseal(SEALED, &Key::new(), &commitment()).expect_err("another key");
+        let other = unseal(SEALED_TRIAL, &Key::new(), &commitment()).expect_err("another key");
         assert!(other.to_string().contains("key of another trial"), "{other}");
-        let mut changed = SEALED.to_vec();
+        let mut changed = SEALED_TRIAL.to_vec();
         changed[3] ^= 1;
         let error = unseal(&changed, &key(), &commitment()).expect_err("changed");
         assert!(error.to_string().contains("changed after it was sealed"), "{error}");
@@ -72,7 +72,7 @@ mod tests {
 
     #[test]
     fn answers_that_were_sealed_by_the_key_alone_open() {
-        let text = unseal(SEALED, &key(), &commitment()).expect("opens");
+        let text = unseal(SEALED_TRIAL, &key(), &commitment()).expect("opens");
         let sealed = add_stream(*key().bytes(), text.as_bytes());
         let of_file = Commitment { sealed_sha256: Some(sha256(&sealed)), ..commitment() };
         assert_eq!(unseal(&sealed, &key(), &of_file).expect("opens"), text);

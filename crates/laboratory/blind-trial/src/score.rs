@@ -75,6 +75,3 @@ impl Score {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

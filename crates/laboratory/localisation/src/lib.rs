@@ -21,8 +21,6 @@ pub mod reference;
 pub mod room;
 pub mod scan;
 pub mod scanner;
-#[cfg(test)]
-mod trials;
 
 pub use error::Error;
 pub use estimate::PoseEstimate;

@@ -20,11 +20,13 @@ pub mod form;
 pub mod gear;
 pub mod mechanism;
 pub mod mechanisms;
+mod page;
 pub mod robot;
 pub mod sheet;
 
 pub use error::Error;
 pub use form::Form;
 pub use mechanisms::{ActiveMechanism, MECHANISMS, sheet_of};
+pub use page::page;
 pub use robot::{Robot, Setup};
 pub use sheet::{Family, Origin, Parameter, Sheet, Symmetry};

@@ -64,10 +64,16 @@ fn list() -> String {
         breaks: the ICRs change with S speed, R reversal, P manoeuvre, M mirror, H heading,\n\
         X place, T time, D transients; 0: equal track speeds do not drive straight ahead as \
         encoders show.\n\
-        `trackdyn effects ID` shows law, parameters and sources.\n\
-        Switch one on: --effect load-transfer:cog_height_m=0.3, or in a vehicle file\n\
-        [effect.load-transfer]\n\
-        cog_height_m = 0.3\n";
+        `trackdyn effects ID` shows law, parameters and sources.\n";
+    for card in effects().iter().filter(|card| card.moves_load()) {
+        let (id, Parameter { key, typical, .. }) = (card.id, &card.parameters[0]);
+        let _ = write!(
+            text,
+            "Switch one on: --effect {id}:{key}={typical}, or in a vehicle file\n\
+             [effect.{id}]\n\
+             {key} = {typical}\n"
+        );
+    }
     text
 }
 

@@ -36,7 +36,7 @@ pub struct Options {
 
 /// Standard deviation of an ICR over the map, m, from which on its mean is not all that there is to
 /// say.
-const NOTABLE: f64 = 1e-3;
+const MIN_SHOWN_DEVIATION: f64 = 1e-3;
 
 /// Prints the motion for track speeds, or track speeds for a motion.
 pub fn run(options: &Options) -> Outcome {
@@ -66,7 +66,7 @@ fn parameters(options: &Options) -> Result<Parameters, Box<dyn Error>> {
     let statistics = map.statistics().ok_or(none)?;
     let spread = statistics.spread.to_array().into_iter().fold(0.0, f64::max);
     // a piecewise map has the ICRs of each sector
-    if map.solved().sectors().is_empty() && spread > NOTABLE {
+    if map.solved().sectors().is_empty() && spread > MIN_SHOWN_DEVIATION {
         note(format_args!(
             "the ICRs of this vehicle go with the speeds, by {:.1} mm up to {} m/s: these \
             are their means",
@@ -118,6 +118,6 @@ fn motion(speed: PerSide<f64>, kinematics: &Kinematics) -> String {
 
 /// The number with five decimals, or with an exponent where that would be too long to read.
 fn readable(value: f64) -> String {
-    const LONG: f64 = 1e6;
-    if value.abs() < LONG { format!("{value:.5}") } else { format!("{value:.5e}") }
+    const MAX_DECIMAL_VALUE: f64 = 1e6;
+    if value.abs() < MAX_DECIMAL_VALUE { format!("{value:.5}") } else { format!("{value:.5e}") }
 }

@@ -47,7 +47,7 @@ pub struct Options {
     #[arg(long, value_enum, default_value_t = Ground::Own)]
     ground: Ground,
     /// Independent ground: a mechanism of it, those outside the catalogue of effects among them
-    /// (listed in docs/theory/second-simulator.md); repeatable
+    /// (listed in docs/trials/forms.md); repeatable
     #[arg(long = "mechanism", value_name = "ID[:PARAMETER=VALUE,...]")]
     mechanisms: Vec<ActiveMechanism>,
     /// Longest step of the integration, s

@@ -246,9 +246,9 @@ fn fitted(
     Ok(found)
 }
 
-/// A hypothesis with one more effect, whose sizes are free from those of another set on and whose
-/// shapes are those of the other set; none for an effect that the other set lacks, or that stands
-/// in the world: each set has its own.
+/// Adds an effect, starting from its fit to the other set: its shapes are fixed there, its sizes
+/// are free. None where the other set lacks the effect, or where it has a place, direction or time:
+/// each set has a world of its own.
 fn from_other(set: &Examination, beside: &Found, other: &Found, effect: EffectId) -> Option<Found> {
     let there = other.fit.hypothesis.effect(effect)?;
     if is_of_the_world(effect) {

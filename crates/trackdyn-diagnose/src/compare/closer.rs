@@ -26,9 +26,9 @@ pub struct Closer {
     pub errors: [f64; 3],
     /// Whether the runs were held out.
     pub are_held_out: bool,
-    /// Decrease of twice the negative log-likelihood of the second set's runs of the fit from the
-    /// first set's model, with what differs as in the second, to the second set's own, beyond what
-    /// as many free numbers explain by chance.
+    /// −2 ln L of the second set's runs under the corrected model of the first, minus that under
+    /// the second set's own model, minus what as many free numbers explain by chance. 0 where the
+    /// corrected model has no motion.
     pub left: f64,
     /// The first set's model, with what differs as in the second.
     pub vehicle: VehicleFile,

@@ -10,7 +10,7 @@ use trackdyn_model::effect::{Role, Symmetry};
 const MAX_DECIMALS: usize = 6;
 
 /// Smallest differences that a sentence lists.
-const LISTED: usize = 6;
+const MAX_LISTED_DIFFERENCES: usize = 6;
 
 /// The status as a sentence.
 pub fn headline(comparison: &Comparison) -> &'static str {
@@ -306,13 +306,13 @@ pub fn smallest(comparison: &Comparison) -> String {
         Some(format!("{} {key} {size:.digits$}{}", one.effect, parameter.unit_behind()))
     });
     let sizes: Vec<String> = sizes.collect();
-    let more = if sizes.len() > LISTED { ", ..." } else { "" };
+    let more = if sizes.len() > MAX_LISTED_DIFFERENCES { ", ..." } else { "" };
     if sizes.is_empty() {
         "no difference of a physical size would have shown".to_owned()
     } else {
         format!(
             "the smallest differences that would have shown: {}{more}",
-            sizes[..sizes.len().min(LISTED)].join(", ")
+            sizes[..sizes.len().min(MAX_LISTED_DIFFERENCES)].join(", ")
         )
     }
 }

@@ -25,8 +25,8 @@ use trackdyn_recording::{Recording, Run, TrackSample};
 const ROUNDING: f64 = 1e-6;
 
 /// What is said where each run has a frame of its own.
-const NO_WORLD: &str = "; each run has a frame of its own, so nothing is looked for that needs a \
-                        place or a heading in the world";
+const NO_WORLD_MESSAGE: &str = "; each run has a frame of its own, so nothing is looked for that \
+                                needs a place or a heading in the world";
 
 impl Evidence {
     /// The segments of a recording, with noise measured on the recording without a model: the
@@ -98,7 +98,7 @@ impl Evidence {
                 "{}{}; noise measured on what driving cannot explain{}",
                 blocks.description(),
                 if matches!(gyroscope, Some(Ok(_))) { "; yaw by the gyroscope" } else { "" },
-                if has_world { "" } else { NO_WORLD }
+                if has_world { "" } else { NO_WORLD_MESSAGE }
             ),
             starts: None,
             gyroscope,

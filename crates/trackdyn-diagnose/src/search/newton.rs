@@ -4,8 +4,8 @@
 //! inertia: each alone may hide in a minimum far from the whole. So both are tried together, at
 //! levels of that one ratio over two decades, with the clock of the present fit and with none.
 //!
-//! The same accelerations move load to a side, by the height of the mass. A wrong height passes for
-//! strengths of inertia that differ, so the height is tried beside strengths that are one number.
+//! These accelerations also move load to a side, by the height of the mass. A wrong height looks
+//! like unequal strengths of the inertial effects. So the height is tried beside equal strengths.
 
 use super::done::{Key, Step};
 use super::{Found, Search};
@@ -42,9 +42,9 @@ impl Search {
         self.refitted_from(starts, beside, effects, &unknowns, watch)
     }
 
-    /// A hypothesis with inertia, with what inertia does to the load beside it: refitted from the
-    /// best of the levels, with one level for all effects of inertia, at a typical height and at
-    /// that of the vehicle file. None where it has that already, or no motion exists at any level.
+    /// Adds load transfer to a hypothesis with inertia and refits it from the best start: one level
+    /// for all inertial effects, at a typical height and at that of the vehicle file. None where it
+    /// has load transfer already, or no motion exists at any level.
     ///
     /// # Errors
     /// [`Cancelled`], by the observer of the watch.

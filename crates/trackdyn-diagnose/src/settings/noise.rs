@@ -95,3 +95,14 @@ impl Noise {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Identification and diagnosis look for noise in one way.
+    #[test]
+    fn noise_is_looked_for_as_by_default() {
+        assert_eq!(Noise::default().search(), Search::default());
+    }
+}

@@ -80,9 +80,9 @@ fn without_instrument(search: &Search, best: &Found, effect: EffectId) -> Found 
     search.with_own_starts(search.found(best.effects.clone(), fit))
 }
 
-/// Whether the fit itself says that an instrument effect as filed costs too little for a claim: its
-/// columns moved back by these parts cost less than half of one, which leaves room for what is not
-/// linear. Of numbers that are held at a bound the fit does not tell.
+/// Whether the linear prediction of the fit is that an instrument effect as filed, `parts` away,
+/// costs less than half of a claim. The other half is for what is not linear. False where a number
+/// of it is held at a bound, of which there is no prediction.
 fn is_negligible(fit: &Fit, columns: &[usize], parts: &[f64], claim: f64) -> bool {
     let rise = || fit.solution.rise(columns, &DVector::from_column_slice(parts));
     columns.iter().all(|column| fit.free.contains(column)) && rise() / 2.0 < claim / 2.0

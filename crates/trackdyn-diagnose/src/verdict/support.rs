@@ -302,11 +302,11 @@ mod tests {
         })
     }
 
-    const FREE: [Prior; 1] = [Prior { mean: 0.0, deviation: 1e6, ln_mass: 0.0 }];
+    const FREE_PRIOR: [Prior; 1] = [Prior { mean: 0.0, deviation: 1e6, ln_mass: 0.0 }];
 
     /// Gain and standard error of an effect with this size in each block.
     fn of_sizes(sizes: &[f64]) -> (f64, f64) {
-        cross_validated(&seen(sizes, |_| true), &FREE, &[0])
+        cross_validated(&seen(sizes, |_| true), &FREE_PRIOR, &[0])
     }
 
     #[test]
@@ -322,8 +322,9 @@ mod tests {
 
     #[test]
     fn blocks_that_show_nothing_do_not_count() {
-        let shown =
-            |is_seen: &dyn Fn(usize) -> bool| shown_by(&seen(&[2.0; 9], is_seen), &FREE, &[0]);
+        let shown = |is_seen: &dyn Fn(usize) -> bool| {
+            shown_by(&seen(&[2.0; 9], is_seen), &FREE_PRIOR, &[0])
+        };
         assert!((shown(&|_| true) - 9.0).abs() < 1e-9);
         assert!((shown(&|block| block == 4) - 1.0).abs() < 1e-9);
         assert!((shown(&|block| block % 3 == 0) - 3.0).abs() < 1e-9);

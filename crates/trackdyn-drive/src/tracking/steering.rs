@@ -41,7 +41,7 @@ impl Steering for KinematicsFile {
 const MAX_STEPS: usize = 20;
 
 /// Difference from a motion that counts as none, m/s and rad/s.
-const CLOSE: f64 = 1e-9;
+const MOTION_ROUNDING: f64 = 1e-9;
 
 /// Speed of a slow spin, m/s.
 const SPIN: f64 = 1e-6;
@@ -65,7 +65,7 @@ impl Steering for MotionTable {
             let [[a, b], _, [c, d]] = at.by_speed;
             let step =
                 [(d * ahead - b * turn), (a * turn - c * ahead)].map(|part| part / (a * d - b * c));
-            if size([ahead, turn]) < CLOSE || !step.iter().all(|part| part.is_finite()) {
+            if size([ahead, turn]) < MOTION_ROUNDING || !step.iter().all(|part| part.is_finite()) {
                 break;
             }
             let moved = |share: f64| {
@@ -78,7 +78,7 @@ impl Steering for MotionTable {
             let Some(next) = nearer else { break };
             (speeds, at) = next;
         }
-        let turning = Some(at.twist).filter(|twist| twist.w.abs() > CLOSE);
+        let turning = Some(at.twist).filter(|twist| twist.w.abs() > MOTION_ROUNDING);
         let found = turning.and_then(|twist| constants(self, speeds, &twist));
         (speeds, found.unwrap_or(start))
     }

@@ -1,6 +1,7 @@
 //! Contradictions in words.
 
 use super::{Contradiction, OtherClock};
+use crate::sensor::Nuisance;
 use std::fmt::{Display, Formatter, Result};
 use trackdyn_core::{PerSide, Side};
 use trackdyn_recording::{PoseUnit, unit};
@@ -138,9 +139,10 @@ fn way(f: &mut Formatter<'_>, left: f64, mount: Option<f64>, during: Option<[f64
         Some(mount) => write!(
             f,
             "the sensor is turned on the robot by some {0:.0} degrees (--mount-yaw \
-             {0:.0} takes it back, --fit sensor-yaw finds the rest), or its yaw is not \
-             that of the robot",
-            mount.to_degrees()
+             {0:.0} takes it back, --fit {1} finds the rest), or its yaw is not that of \
+             the robot",
+            mount.to_degrees(),
+            Nuisance::SensorYaw
         ),
         None => f.write_str(
             "check the wheel radius and the units, whether x and y are swapped or \

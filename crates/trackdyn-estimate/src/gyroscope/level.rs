@@ -77,7 +77,7 @@ struct Step {
 }
 
 /// How a value shows both states.
-const SEEN: RowVector2<f64> = RowVector2::new(1.0, 1.0);
+const OBSERVATION_ROW: RowVector2<f64> = RowVector2::new(1.0, 1.0);
 
 impl Level {
     /// Variances that whiten a column to its differences.
@@ -106,8 +106,8 @@ impl Level {
             let forward = Matrix2::new(1.0, 0.0, 0.0, left);
             let added = Vector2::new(self.walk * interval, self.wander * (1.0 - left * left));
             let before = forward * known * forward + Matrix2::from_diagonal(&added);
-            let total = (SEEN * before * SEEN.transpose())[0] + self.white;
-            let gain = before * SEEN.transpose() / total;
+            let total = (OBSERVATION_ROW * before * OBSERVATION_ROW.transpose())[0] + self.white;
+            let gain = before * OBSERVATION_ROW.transpose() / total;
             known = before - gain * total * gain.transpose();
             Step { forward, before, gain, inverse: total.sqrt().recip(), after: known }
         };

@@ -12,7 +12,7 @@ use trackdyn_recording::{ImuSample, PoseSample};
 const YAW_NOISE: f64 = 0.01;
 const BIAS: f64 = 0.02;
 const SCALE: f64 = 1.03;
-const LATE: f64 = 0.04;
+const DELAY: f64 = 0.04;
 
 /// Two drives of a minute with poses of this noise.
 fn synthetic(yaw_noise: f64, seed: u64) -> Synthetic {
@@ -26,7 +26,7 @@ fn synthetic(yaw_noise: f64, seed: u64) -> Synthetic {
     }
 }
 
-/// What a gyroscope at 100 Hz measures, with this noise (rad/s), beside poses late by [`LATE`].
+/// What a gyroscope at 100 Hz measures, with this noise (rad/s), beside poses late by [`DELAY`].
 fn with_readings(synthetic: &Synthetic, noise: f64, unit: f64) -> Recording {
     let recording = synthetic.recording().expect("long enough");
     let exact =
@@ -37,7 +37,7 @@ fn with_readings(synthetic: &Synthetic, noise: f64, unit: f64) -> Recording {
         let tracks = exact.tracks();
         let mut rows = run.clone().into_rows();
         for pose in &mut rows.poses.samples {
-            pose.t += LATE;
+            pose.t += DELAY;
         }
         let count = (tracks.len() - 1) * 5;
         let reading = |k: usize| {
@@ -79,7 +79,7 @@ fn yaw_is_better_with_a_gyroscope_whose_errors_are_found() {
         with_gyroscope(&raw, 0.0).expect("it serves");
     assert!((found.scale / SCALE - 1.0).abs() < 0.003, "{found:?}");
     // Between two readings the rate is taken as linear: a step in it seems 5 ms early.
-    assert!((found.lag - LATE - 0.005).abs() < 0.002, "{found:?}");
+    assert!((found.lag - DELAY - 0.005).abs() < 0.002, "{found:?}");
     // Two poses, each off by its noise; a second of readings, each off by 0.002 rad/s for 10 ms.
     assert!((found.error_of_poses / (2.0_f64.sqrt() * YAW_NOISE)).ln().abs() < 0.15, "{found:?}");
     assert!((found.error_with_it / 2e-4).ln().abs() < 0.2, "{found:?}");
@@ -98,10 +98,10 @@ fn a_gyroscope_that_made_the_yaw_of_the_poses_tells_what_lies_between() {
         let mut rows = run.clone().into_rows();
         rows.poses.samples.retain(|pose| {
             let [start, end] = turned[0].span();
-            (start..end).contains(&(pose.t - LATE))
+            (start..end).contains(&(pose.t - DELAY))
         });
         for pose in &mut rows.poses.samples {
-            pose.pose.yaw = turned[0].at(pose.t - LATE).0;
+            pose.pose.yaw = turned[0].at(pose.t - DELAY).0;
         }
         Run::new(rows, &mut Vec::new())
     });
@@ -141,14 +141,14 @@ fn a_gyroscope_in_degrees_and_one_upside_down_are_refused() {
 /// A loop is closed in the middle of each run: the map turns by six degrees.
 #[test]
 fn a_jump_of_the_poses_stays_where_it_is() {
-    const JUMP: f64 = 0.1;
+    const YAW_JUMP: f64 = 0.1;
     let synthetic = synthetic(0.002, 4);
     let raw = with_readings(&synthetic, 0.002, 1.0);
     let runs = raw.runs().iter().map(|run| {
         let mut rows = run.clone().into_rows();
         let middle = rows.poses.samples.len() / 2;
         for pose in &mut rows.poses.samples[middle..] {
-            pose.pose.yaw += JUMP;
+            pose.pose.yaw += YAW_JUMP;
         }
         Run::new(rows, &mut Vec::new())
     });
@@ -235,7 +235,7 @@ fn yaw_between_rare_poses_is_that_of_the_gyroscope() {
     for ((run, exact), has_place) in recording.runs().iter().zip(exact.runs()).zip(&has_place) {
         assert_eq!(run.poses().len(), has_place.len());
         for (pose, has_place) in run.poses().iter().zip(has_place) {
-            let at = |exact: &PoseSample| (exact.t - pose.t + LATE).abs() < 1e-9;
+            let at = |exact: &PoseSample| (exact.t - pose.t + DELAY).abs() < 1e-9;
             let k = exact.poses().iter().position(at).expect("at even times");
             assert_eq!(*has_place, k.is_multiple_of(10), "{k}");
             let off = pose.pose.yaw - exact.poses()[k].pose.yaw;

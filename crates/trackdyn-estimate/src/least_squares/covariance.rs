@@ -1,7 +1,35 @@
-//! Covariance from the scatter between blocks of consecutive segments.
+//! Covariance of an estimate: inverse of a normal matrix, and scatter between blocks of consecutive
+//! segments.
 
+use faer::Mat;
 use nalgebra::{DMatrix, DVector};
 use trackdyn_core::real;
+
+/// Smallest ratio of an eigenvalue to the largest: below, a direction is lost in rounding.
+pub const MIN_EIGENVALUE_RATIO: f64 = 1e-13;
+
+/// The inverse of a normal matrix, by its eigenvalues. Directions that are lost in rounding get a
+/// large variance.
+pub fn inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    let count = matrix.nrows();
+    // Parameters differ in unit and size: the diagonal is scaled to 1 first.
+    let scale: Vec<f64> =
+        (0..count).map(|k| matrix[(k, k)].max(f64::MIN_POSITIVE).sqrt().recip()).collect();
+    let scaled = Mat::from_fn(count, count, |i, k| matrix[(i, k)] * scale[i] * scale[k]);
+    let Ok(decomposition) = scaled.self_adjoint_eigen(faer::Side::Lower) else {
+        return DMatrix::from_element(count, count, f64::NAN);
+    };
+    let (values, vectors) = (decomposition.S(), decomposition.U());
+    let largest = (0..count).map(|k| values[k]).fold(0.0, f64::max);
+    DMatrix::from_fn(count, count, |i, k| {
+        let sum: f64 = (0..count)
+            .map(|m| {
+                vectors[(i, m)] * vectors[(k, m)] / values[m].max(MIN_EIGENVALUE_RATIO * largest)
+            })
+            .sum();
+        sum * scale[i] * scale[k]
+    })
+}
 
 /// Covariance of an estimate by leaving out each block: (B − 1)/B Σ δᵦ δᵦᵀ, with the change δᵦ = (H
 /// − Hᵦ)⁻¹ gᵦ of one Newton step without block b, whose share of the normal equations H is Hᵦ and
@@ -17,7 +45,7 @@ use trackdyn_core::real;
 pub fn jackknife(curvature: &DMatrix<f64>, parts: &[(DMatrix<f64>, DVector<f64>)]) -> DMatrix<f64> {
     let count = curvature.nrows();
     let scatter = parts.iter().fold(DMatrix::zeros(count, count), |sum, (part, score)| {
-        let change = super::identifiability::inverse(&(curvature - part)) * score;
+        let change = inverse(&(curvature - part)) * score;
         sum + &change * change.transpose()
     });
     let blocks = real(parts.len());

@@ -98,9 +98,9 @@ impl Estimate {
     /// The interval of a function of the unknowns with this gradient, whose last zeros may be left
     /// out.
     ///
-    /// Its width is the larger of two: that of the noise model, which is right where the model is,
-    /// and that of the scatter between blocks, which holds where it is not but is itself uncertain
-    /// where few manoeuvres carry the information.
+    /// Its width is the larger of two. The width by the noise model is right where that model is.
+    /// The width by the scatter between blocks needs no noise model, but it is uncertain where few
+    /// manoeuvres carry the information.
     fn interval_along(&self, value: f64, gradient: &[f64]) -> Interval {
         let gradient = DVector::from_column_slice(gradient);
         let variance = |of: &DMatrix<f64>| {

@@ -1,17 +1,14 @@
 //! What a recording cannot identify.
 
+use super::Estimate;
+use super::covariance::MIN_EIGENVALUE_RATIO;
 use crate::doubt::Doubt;
-use crate::least_squares::Estimate;
 use crate::noise::Noise;
 use crate::observations::Observations;
 use crate::parameters::Free;
 use crate::sensor::Nuisance;
-use faer::Mat;
-use nalgebra::{DMatrix, Matrix2, Vector2};
+use nalgebra::{Matrix2, Vector2};
 use trackdyn_core::Side;
-
-/// Smallest ratio of an eigenvalue to the largest: below, a direction is lost in rounding.
-const MIN_EIGENVALUE_RATIO: f64 = 1e-13;
 
 /// Largest standard deviation of an ICR, in gauges, with which a robot can be driven.
 const MAX_ICR_DEVIATION: f64 = 0.25;
@@ -164,27 +161,4 @@ fn poorest_excitation(observations: &Observations, noise: &Noise, free: Free) ->
         Free::IcrsAndAlphas => moments.symmetric_eigenvalues().min(),
     };
     over_noise(least, variance, moments.trace())
-}
-
-/// The inverse of a normal matrix, by its eigenvalues. Directions that are lost in rounding get a
-/// large variance.
-pub(crate) fn inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
-    let count = matrix.nrows();
-    // Parameters differ in unit and size: the diagonal is scaled to 1 first.
-    let scale: Vec<f64> =
-        (0..count).map(|k| matrix[(k, k)].max(f64::MIN_POSITIVE).sqrt().recip()).collect();
-    let scaled = Mat::from_fn(count, count, |i, k| matrix[(i, k)] * scale[i] * scale[k]);
-    let Ok(decomposition) = scaled.self_adjoint_eigen(faer::Side::Lower) else {
-        return DMatrix::from_element(count, count, f64::NAN);
-    };
-    let (values, vectors) = (decomposition.S(), decomposition.U());
-    let largest = (0..count).map(|k| values[k]).fold(0.0, f64::max);
-    DMatrix::from_fn(count, count, |i, k| {
-        let sum: f64 = (0..count)
-            .map(|m| {
-                vectors[(i, m)] * vectors[(k, m)] / values[m].max(MIN_EIGENVALUE_RATIO * largest)
-            })
-            .sum();
-        sum * scale[i] * scale[k]
-    })
 }

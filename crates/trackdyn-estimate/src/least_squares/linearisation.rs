@@ -1,8 +1,7 @@
 //! Whitened residuals and their derivatives at a point, and the sums that least squares needs of
 //! them.
 
-use super::covariance::jackknife;
-use super::identifiability::inverse;
+use super::covariance::{inverse, jackknife};
 use super::{Estimate, Loss, Unknowns};
 use crate::observations::{Observation, Observations};
 use crate::parameters::{COUNT, Parameters};

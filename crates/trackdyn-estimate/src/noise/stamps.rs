@@ -7,7 +7,7 @@
 //! likelihood asks for it clearly.
 
 use super::Component;
-use crate::variances::{Climb, MIN_GAIN, NONE, heavy_tailed};
+use crate::variances::{Climb, LN_ZERO, MIN_GAIN, heavy_tailed};
 use nalgebra::{Matrix3, SVector, Vector3};
 use trackdyn_core::real;
 use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE_3, median};
@@ -75,7 +75,7 @@ pub(super) fn stamps(triples: &[Triple], start: [Component; 3]) -> Option<([Comp
         without[3 + axis] = floor(start[axis].walk.powi(2), axis);
     }
     let none = Logarithms::zeros();
-    without[STAMP] = NONE;
+    without[STAMP] = LN_ZERO;
     let (without, plain) = CLIMB.from(without, &none, terms);
     let mut with = without;
     with[STAMP] = (seen[0] / fastest).max(1e-18).ln();
@@ -120,7 +120,7 @@ mod tests {
     /// Two drives of a minute with poses every 0.09 s that were taken later than their stamps say,
     /// by a standard deviation of `jitter` (s).
     fn jittered(jitter: f64, seed: u64) -> Recording {
-        const EVERY: usize = 90;
+        const LATE_PERIOD: usize = 90;
         let synthetic = Synthetic {
             schedules: [0, 100].map(|k| random_steps(33, 1.8, 0.8, seed + k)).to_vec(),
             pose_interval: 1e-3,
@@ -141,7 +141,7 @@ mod tests {
                 let index = poses.partition_point(|other| other.t < later);
                 PoseSample { pose: poses[index.min(poses.len() - 1)].pose, ..*pose }
             };
-            rows.poses.samples = poses.iter().step_by(EVERY).map(taken).collect();
+            rows.poses.samples = poses.iter().step_by(LATE_PERIOD).map(taken).collect();
             Run::new(rows, &mut Vec::new())
         });
         dense.with_runs(runs.collect())

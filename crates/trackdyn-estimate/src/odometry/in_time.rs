@@ -23,8 +23,9 @@ use trackdyn_recording::{PoseSample, Recording, Run, Source, UncheckedRun, hold,
 /// Slip velocity below which a track sticks, m/s: no pose sensor sees it.
 const CREEP: f64 = 1e-4;
 
-/// Delay of the poses that a replay by the forces on a vehicle counts with, s: that of the file; or
-/// else the clock offset, less the answer of the forces where it was estimated.
+/// Delay of the poses in a replay by the forces on a vehicle, s: that of the file, where it has
+/// one; else the clock offset. An estimated offset holds the delay of the robot's own answer, which
+/// the forces repeat, so that is subtracted.
 pub fn delay(recording: &Recording, file: &VehicleFile, clock: &Clock) -> f64 {
     let own = model(file).sensor().delay;
     match clock {

@@ -29,10 +29,10 @@ pub(super) struct Forces {
 
 impl ParameterSet {
     /// Name of the ideal differential drive.
-    pub const IDEAL: &'static str = "ideal";
+    pub const IDEAL_NAME: &'static str = "ideal";
 
     /// Name of the forces on a vehicle.
-    pub const PHYSICS: &'static str = "physics";
+    pub const PHYSICS_NAME: &'static str = "physics";
 
     /// Constant parameters.
     pub fn new(name: impl Into<String>, kinematics: Kinematics) -> Self {
@@ -41,7 +41,7 @@ impl ParameterSet {
 
     /// The ideal differential drive of this gauge, m: ICRs on the track centre-lines.
     pub fn ideal(gauge: f64) -> Self {
-        Self::new(Self::IDEAL, Kinematics::ideal(gauge))
+        Self::new(Self::IDEAL_NAME, Kinematics::ideal(gauge))
     }
 
     /// The parameters of a file: by sector where its map is piecewise.
@@ -147,7 +147,7 @@ mod tests {
     #[test]
     fn forces_have_icrs_where_they_turn_the_robot() {
         let file = VehicleFile::auriga_alpha();
-        let forces = ParameterSet::of_vehicle(ParameterSet::PHYSICS, &file, 0.0);
+        let forces = ParameterSet::of_vehicle(ParameterSet::PHYSICS_NAME, &file, 0.0);
         let (icrs, twist) = forces.steady(PerSide::new(0.4, 0.6));
         let icrs = icrs.expect("it turns");
         assert!((0.2 / (icrs.x_right - icrs.x_left) - twist.w).abs() < 1e-9);

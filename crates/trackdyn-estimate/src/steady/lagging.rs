@@ -2,9 +2,8 @@
 //!
 //! # Law
 //! Whatever the ICRs are, more speed on the outer track and less on the inner one does not turn a
-//! robot more slowly. A point that turns more slowly than one that is so driven less has a track
-//! that did not run as fast as its speed says: a motor that saturates or stalls, or a belt that
-//! slips on its sprocket.
+//! robot more slowly. So if a point turns more slowly than one that is driven less hard, one of its
+//! tracks missed its speed: a motor saturates or stalls, or a belt slips on its sprocket.
 //!
 //! # Assumes
 //! The scatter of yaw rates, found without a model: of each point between its neighbours on a line

@@ -5,7 +5,7 @@ use crate::number::number;
 use std::fmt::Write;
 use trackdyn_core::lines;
 use trackdyn_core::rounding::Digits;
-use trackdyn_model::Icrs;
+use trackdyn_model::{ActiveEffect, CATALOGUE, Icrs, Model, RigidBody};
 
 /// Whether a format has an aspect, and how, or what to do instead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,16 +48,22 @@ pub(crate) fn effects(robot: &Robot, express: impl Fn(Aspect) -> Expression) -> 
 pub(crate) fn assumed(robot: &Robot) -> String {
     let mut text = String::new();
     if robot.body.cog_height == 0.0 {
+        let height = statement(robot, |body| body.cog_height);
         text += &wrapped(
-            "The height of the centre of gravity is not known. It lies on the ground here, so no \
-             load shifts in turns: the effect load-transfer:cog_height_m=H says it.",
+            &format!(
+                "The height of the centre of gravity is not known. It lies on the ground here, so \
+                 no load shifts in turns: the effect {height} says it."
+            ),
             "- ",
         );
     }
     if robot.body.gyration.is_none() {
+        let gyration = statement(robot, |body| body.gyration);
         text += &wrapped(
-            "The moments of inertia are not known: those of an even box over the contact, half \
-             the gauge high. The effect yaw-inertia:gyration_m=R says the one about the vertical.",
+            &format!(
+                "The moments of inertia are not known: those of an even box over the contact, half \
+                 the gauge high. The effect {gyration} says the one about the vertical."
+            ),
             "- ",
         );
     } else {
@@ -68,6 +74,24 @@ pub(crate) fn assumed(robot: &Robot) -> String {
         );
     }
     format!("\nAssumed:\n{text}")
+}
+
+/// How a vehicle says a property of its body: `EFFECT:KEY=SYMBOL`, by the effect with a parameter
+/// that changes it.
+fn statement<T: PartialEq>(robot: &Robot, property: fn(&RigidBody) -> T) -> String {
+    let with = |id: &str, key: &str, value: f64| {
+        let effect = ActiveEffect::new(id, &[(key, value)]).ok()?;
+        let effects = [effect].into_iter().collect();
+        Some(property(&Model::new(robot.model.vehicle().clone(), effects).rigid_body()))
+    };
+    let parameters =
+        CATALOGUE.iter().flat_map(|card| card.parameters.iter().map(|one| (card.id, one)));
+    let mut changing = parameters.filter(|(id, one)| {
+        let values = [one.typical, one.typical / 2.0].map(|value| with(id, one.key, value));
+        matches!(values, [Some(typical), Some(half)] if typical != half)
+    });
+    let (id, one) = changing.next().expect("an effect of the catalogue says it");
+    format!("{id}:{}={}", one.key, one.symbol.to_uppercase())
 }
 
 /// How the file turns, beside the vehicle.
@@ -98,4 +122,17 @@ pub(crate) fn row(values: &[f64]) -> String {
 /// A text in lines; the first begins with `head`, the others are as far to the right.
 pub(crate) fn wrapped(text: &str, head: &str) -> String {
     lines::wrapped(head, text, WIDTH)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trackdyn_model::VehicleFile;
+
+    #[test]
+    fn a_property_of_the_body_is_said_by_the_effect_that_changes_it() {
+        let robot = Robot::of(&VehicleFile::auriga_alpha()).expect("a robot");
+        assert_eq!(statement(&robot, |body| body.cog_height), "load-transfer:cog_height_m=H");
+        assert_eq!(statement(&robot, |body| body.gyration), "yaw-inertia:gyration_m=R");
+    }
 }

@@ -36,20 +36,7 @@ const MAX_COARSE_DISTANCE: f64 = 50.0;
 #[inline]
 pub fn applies<S: Scalar>(patch: &Patch, slip: &SlipField<S>, resolution: Resolution) -> bool {
     let reach = if resolution == Resolution::Fine { MAX_DISTANCE } else { MAX_COARSE_DISTANCE };
-    distance_squared(patch, slip) < reach * reach
-}
-
-/// Squared distance from the centre of the patch to the ICR, in half diagonals of the patch;
-/// infinite where the field does not rotate.
-#[inline]
-pub fn distance_squared<S: Scalar>(patch: &Patch, slip: &SlipField<S>) -> f64 {
-    let [x, y] = patch.centre();
-    let (lateral, forward, rotation) =
-        (slip.lateral.value(), slip.forward.value(), slip.rotation.value());
-    // |s(centre)| = |rotation| · distance from the centre to the ICR
-    let slip_squared = (lateral - rotation * y).powi(2) + (forward + rotation * x).powi(2);
-    let half_diagonal_squared = (patch.width().powi(2) + patch.length().powi(2)) / 4.0;
-    slip_squared / (rotation * rotation * half_diagonal_squared)
+    slip.icr_distance_squared(patch) < reach * reach
 }
 
 /// Friction wrench about the frame's origin of patches that share friction, pressure and slip.

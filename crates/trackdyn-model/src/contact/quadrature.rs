@@ -3,7 +3,6 @@
 //! Used where the closed form does not apply: laws that change the shear stress, and ICRs so far
 //! away that the slip direction is nearly uniform.
 
-use crate::contact::closed_form::distance_squared;
 use crate::contact::{Friction, Patch, Pressure, ShearStress, SlipField};
 use gauss_quad::GaussLegendre;
 use std::num::NonZeroUsize;
@@ -44,25 +43,25 @@ const NODES_BY_DISTANCE: [(f64, usize); 6] =
     [(5000.0, 3), (232.0, 4), (50.0, 5), (20.0, 6), (10.8, 7), (0.0, 8)];
 
 /// The rules of [`NODES_BY_DISTANCE`].
-static FAR_FIELD: LazyLock<[Rule; NODES_BY_DISTANCE.len()]> =
+static FAR_FIELD_RULES: LazyLock<[Rule; NODES_BY_DISTANCE.len()]> =
     LazyLock::new(|| NODES_BY_DISTANCE.map(|(_, n)| Rule::new(n, n)));
 
 /// Rules for half the digits, 10⁻⁸: the exponent 2n − 2 is halved.
-static FAR_FIELD_COARSE: LazyLock<[Rule; NODES_BY_DISTANCE.len()]> =
+static COARSE_FAR_FIELD_RULES: LazyLock<[Rule; NODES_BY_DISTANCE.len()]> =
     LazyLock::new(|| NODES_BY_DISTANCE.map(|(_, n)| n / 2 + 1).map(|n| Rule::new(n, n)));
 
 /// Resolves a shear stress that builds up over a percent of the track's length.
-static FINE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(8, 24));
+static FINE_RULE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(8, 24));
 
 /// Resolves the change by a law to half a percent, and where a stress builds up over a few percent
-/// of the length to one percent, in an eighth of the time of [`FINE`].
-static COARSE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(2, 8));
+/// of the length to one percent, in an eighth of the time of [`FINE_RULE`].
+static COARSE_RULE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(2, 8));
 
-/// Resolves the change by a law to a tenth, in a third of the time of [`COARSE`].
-static ROUGH: LazyLock<Rule> = LazyLock::new(|| Rule::graded(1, 5));
+/// Resolves the change by a law to a tenth, in a third of the time of [`COARSE_RULE`].
+static ROUGH_RULE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(1, 5));
 
-/// [`ROUGH`] for a patch hardly longer than wide.
-static ROUGH_SHORT: LazyLock<Rule> = LazyLock::new(|| Rule::graded(2, 3));
+/// [`ROUGH_RULE`] for a patch hardly longer than wide.
+static SHORT_ROUGH_RULE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(2, 3));
 
 /// Resolution of the shear-stress quadrature.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -85,11 +84,12 @@ pub fn far_field_wrench<S: Scalar>(
     slip: &SlipField<S>,
     resolution: Resolution,
 ) -> Wrench<S> {
-    let rules = if resolution == Resolution::Fine { &FAR_FIELD } else { &FAR_FIELD_COARSE };
+    let rules =
+        if resolution == Resolution::Fine { &FAR_FIELD_RULES } else { &COARSE_FAR_FIELD_RULES };
     let unit = S::from(1.0);
     let mut wrench = Wrench::zero();
     for patch in patches {
-        let distance = distance_squared(&patch.value(), slip).sqrt();
+        let distance = slip.icr_distance_squared(&patch.value()).sqrt();
         let reached = NODES_BY_DISTANCE.iter().position(|(from, _)| distance >= *from);
         let rule = &rules[reached.unwrap_or(NODES_BY_DISTANCE.len() - 1)];
         wrench += integrate(rule, &Panels::whole(&patch), slip, |site| {
@@ -116,10 +116,10 @@ pub fn departure_wrench<S: Scalar>(
     for patch in patches {
         let is_short = patch.length().value() < 2.0 * patch.width();
         let rule = match (resolution, is_short) {
-            (Resolution::Fine, _) => &FINE,
-            (Resolution::Coarse, _) => &COARSE,
-            (Resolution::Rough, false) => &ROUGH,
-            (Resolution::Rough, true) => &ROUGH_SHORT,
+            (Resolution::Fine, _) => &FINE_RULE,
+            (Resolution::Coarse, _) => &COARSE_RULE,
+            (Resolution::Rough, false) => &ROUGH_RULE,
+            (Resolution::Rough, true) => &SHORT_ROUGH_RULE,
         };
         let panels = Panels::cut(&patch, slip);
         wrench += integrate(rule, &panels, slip, |site| {

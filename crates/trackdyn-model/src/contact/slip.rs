@@ -1,5 +1,6 @@
 //! Slip velocity of a belt over the ground.
 
+use super::Patch;
 use trackdyn_core::Scalar;
 
 /// Slip velocity field of one side: `s(x, y) = speed · (lateral − rotation·y, forward +
@@ -31,5 +32,18 @@ impl<S: Scalar> SlipField<S> {
     pub fn icr(&self) -> [S; 2] {
         let inverse = self.rotation.recip();
         [-self.forward * inverse, self.lateral * inverse]
+    }
+
+    /// Squared distance from the centre of a patch to the ICR, in half diagonals of the patch;
+    /// infinite where the field does not rotate.
+    #[inline]
+    pub fn icr_distance_squared(&self, patch: &Patch) -> f64 {
+        let [x, y] = patch.centre();
+        let (lateral, forward, rotation) =
+            (self.lateral.value(), self.forward.value(), self.rotation.value());
+        // |s(centre)| = |rotation| · distance from the centre to the ICR
+        let slip_squared = (lateral - rotation * y).powi(2) + (forward + rotation * x).powi(2);
+        let half_diagonal_squared = (patch.width().powi(2) + patch.length().powi(2)) / 4.0;
+        slip_squared / (rotation * rotation * half_diagonal_squared)
     }
 }

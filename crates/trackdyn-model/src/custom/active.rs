@@ -1,6 +1,6 @@
 //! A law of a user with values of its parameters, at the hooks of an effect.
 
-use super::argument::{OF_FORCE, OF_FRICTION};
+use super::argument::{FORCE_COUNT, FRICTION_COUNT};
 use super::differences::results;
 use super::{CustomLaw, Kind};
 use crate::contact::ShearStress;
@@ -42,7 +42,7 @@ impl ActiveLaw {
     }
 
     /// Factors on the friction across and along the track, at points that were seen so.
-    pub(crate) fn factors<S: Scalar>(&self, seen: &[[S; OF_FRICTION]]) -> Vec<[S; 2]> {
+    pub(crate) fn factors<S: Scalar>(&self, seen: &[[S; FRICTION_COUNT]]) -> Vec<[S; 2]> {
         if self.law.kind() != Kind::Friction || seen.is_empty() {
             return vec![[S::from(1.0); 2]; seen.len()];
         }
@@ -62,7 +62,7 @@ impl ActiveLaw {
             return;
         }
         let loads = [normal_load.left, normal_load.right];
-        let seen = joined::<S, OF_FORCE>(motion(situation), loads);
+        let seen = joined::<S, FORCE_COUNT>(motion(situation), loads);
         for [forward, lateral, moment] in results(self.law, &self.values, &[seen]) {
             // paper's frame: x right, y forward
             wrench.add_force([-lateral, forward], situation.vehicle.cog);
@@ -91,7 +91,7 @@ fn motion<S: Scalar>(situation: &Situation<S>) -> [S; 9] {
 }
 
 /// What a law of friction sees at a point.
-pub(crate) fn seen_at<S: Scalar>(site: &Site<S>) -> [S; OF_FRICTION] {
+pub(crate) fn seen_at<S: Scalar>(site: &Site<S>) -> [S; FRICTION_COUNT] {
     let speed = site.slip_field().speed;
     let [right, forward] = site.slip.unit_slip.map(|slip| slip * speed);
     let [point_right, point_forward] = site.slip.position;
@@ -108,7 +108,7 @@ pub(crate) fn seen_at<S: Scalar>(site: &Site<S>) -> [S; OF_FRICTION] {
         point_forward * cos + point_right * sin + x,
         point_forward * sin - point_right * cos + y,
     ];
-    joined::<S, OF_FRICTION>(motion(site.situation), contact)
+    joined::<S, FRICTION_COUNT>(motion(site.situation), contact)
 }
 
 /// Two lists in one.

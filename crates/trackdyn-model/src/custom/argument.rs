@@ -56,10 +56,10 @@ pub enum Argument {
 }
 
 /// Number of arguments of a force.
-pub const OF_FORCE: usize = MOTION.len() + 2;
+pub const FORCE_COUNT: usize = MOTION.len() + 2;
 
 /// Number of arguments of friction.
-pub const OF_FRICTION: usize = MOTION.len() + 9;
+pub const FRICTION_COUNT: usize = MOTION.len() + 9;
 
 /// What all laws see.
 const MOTION: [Argument; 9] = [
@@ -74,9 +74,9 @@ const MOTION: [Argument; 9] = [
     Argument::Time,
 ];
 
-const FORCE: [Argument; OF_FORCE] = beside_motion([Argument::LeftLoad, Argument::RightLoad]);
+const FORCE: [Argument; FORCE_COUNT] = beside_motion([Argument::LeftLoad, Argument::RightLoad]);
 
-const FRICTION: [Argument; OF_FRICTION] = beside_motion([
+const FRICTION: [Argument; FRICTION_COUNT] = beside_motion([
     Argument::SlipForward,
     Argument::SlipLateral,
     Argument::SlipSpeed,

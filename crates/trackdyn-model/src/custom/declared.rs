@@ -21,7 +21,7 @@ pub struct Declared {
 
 /// Size of a value without a limit, in typical ones. Searches expect a few typical sizes, and call
 /// an end of a range what is less than a millionth of it away.
-const WITHOUT_LIMIT: f64 = 1000.0;
+const UNLIMITED_SIZE: f64 = 1000.0;
 
 /// A law that cannot be defined so.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -116,8 +116,8 @@ impl Declared {
             Role::Place { .. } => 1e4,
             Role::Direction => 360.0,
             Role::Time => 1e6,
-            Role::Size { .. } | Role::Shape if self.typical == 0.0 => WITHOUT_LIMIT,
-            Role::Size { .. } | Role::Shape => WITHOUT_LIMIT * self.typical.abs(),
+            Role::Size { .. } | Role::Shape if self.typical == 0.0 => UNLIMITED_SIZE,
+            Role::Size { .. } | Role::Shape => UNLIMITED_SIZE * self.typical.abs(),
         };
         Parameter {
             key: lasting(&self.key),

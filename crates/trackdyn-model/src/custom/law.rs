@@ -1,7 +1,6 @@
 //! A law of a user: its card and its function.
 
 use super::declared::{check, lasting};
-use super::symmetries::broken;
 use super::{Argument, Batch, Cause, Declared, DefinitionError, Failure, Kind, Results};
 use crate::effect::{Card, Stage, Symmetry};
 use std::error::Error;
@@ -102,14 +101,10 @@ impl CustomLaw {
         self
     }
 
-    /// The law with the symmetries on its card that it breaks at typical values.
-    ///
-    /// # Errors
-    /// The failure of its function.
-    pub fn measured(mut self) -> Result<Self, Failure> {
-        let broken: Vec<Symmetry> = broken(&self)?;
+    /// The law with these symmetries on its card as broken.
+    pub(super) fn breaking(mut self, broken: Vec<Symmetry>) -> Self {
         self.card.breaks = Box::leak(broken.into_boxed_slice());
-        Ok(self)
+        self
     }
 
     /// What it adds.

@@ -85,8 +85,19 @@ impl Probe {
     }
 }
 
+impl CustomLaw {
+    /// The law with the symmetries on its card that it breaks at typical values.
+    ///
+    /// # Errors
+    /// The failure of its function.
+    pub fn measured(self) -> Result<Self, Failure> {
+        let broken = broken(&self)?;
+        Ok(self.breaking(broken))
+    }
+}
+
 /// The symmetries that a law breaks, ascending.
-pub fn broken(law: &CustomLaw) -> Result<Vec<Symmetry>, Failure> {
+fn broken(law: &CustomLaw) -> Result<Vec<Symmetry>, Failure> {
     let values: Vec<f64> = law.card().parameters.iter().map(|one| one.typical).collect();
     let results = |probe: Probe| -> Result<Vec<f64>, Failure> {
         let (rows, columns) = probe.columns(law.kind());

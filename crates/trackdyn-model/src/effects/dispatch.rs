@@ -14,10 +14,10 @@ macro_rules! catalogue {
         const NATURES: &[Nature] = &[$(<$module::$effect as Effect>::NATURE),+];
 
         /// Whether each effect of the catalogue is a term of Newton's second law.
-        const INERTIAL: &[bool] = &[$(<$module::$effect as Effect>::IS_INERTIA),+];
+        const INERTIA_FLAGS: &[bool] = &[$(<$module::$effect as Effect>::IS_INERTIA),+];
 
         /// Whether each effect of the catalogue is an error of instruments that few robots have.
-        const RARE: &[bool] = &[$(<$module::$effect as Effect>::IS_RARE),+];
+        const RARITY_FLAGS: &[bool] = &[$(<$module::$effect as Effect>::IS_RARE),+];
 
         /// The terms of each effect of the catalogue.
         const TERMS: &[fn() -> Vec<Term>] = &[$(<$module::$effect as Effect>::terms),+];

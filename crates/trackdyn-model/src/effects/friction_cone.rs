@@ -19,7 +19,7 @@ pub struct FrictionCone {
 const EDGE: f64 = 0.01;
 
 /// Square of a slip component that is nothing beside 1, so that its logarithm is finite.
-const NOTHING: f64 = 1e-30;
+const NEGLIGIBLE_SQUARE: f64 = 1e-30;
 
 impl Effect for FrictionCone {
     const CARD: Card = Card {
@@ -90,7 +90,7 @@ impl FrictionCone {
         // m = 2/(1 + b)
         let m = 2.0 / (1.0 + self.pyramid);
         // |u|² with the edge of a box rounded
-        let rounding = (EDGE * self.pyramid).powi(2) + NOTHING;
+        let rounding = (EDGE * self.pyramid).powi(2) + NEGLIGIBLE_SQUARE;
         let squares = u.map(|u| u * u + rounding);
         let powers = squares.map(|square| power(square, 0.5 * m));
         // ∂|u|_m/∂u = u |u|^(m − 2) |u|_m^(1 − m)

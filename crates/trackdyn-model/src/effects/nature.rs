@@ -1,6 +1,6 @@
 //! Mechanisms and forms.
 
-use super::{CATALOGUE, INERTIAL, NATURES, RARE, TERMS};
+use super::{CATALOGUE, INERTIA_FLAGS, NATURES, RARITY_FLAGS, TERMS};
 use crate::effect::{Card, Nature, Parameter, Role, Term};
 
 impl Card {
@@ -16,12 +16,12 @@ impl Card {
 
     /// Whether it is a term of Newton's second law, which owners know without a measurement.
     pub fn is_inertia(&self) -> bool {
-        self.place().is_some_and(|place| INERTIAL[place])
+        self.place().is_some_and(|place| INERTIA_FLAGS[place])
     }
 
     /// Whether it is an error of instruments that few robots have.
     pub fn is_rare(&self) -> bool {
-        self.place().is_some_and(|place| RARE[place])
+        self.place().is_some_and(|place| RARITY_FLAGS[place])
     }
 
     /// Terms of a form; empty for a mechanism.

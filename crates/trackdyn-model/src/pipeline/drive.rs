@@ -21,16 +21,16 @@ pub struct Drive {
 }
 
 /// A factor that changes nothing.
-const NONE: PerSide<f64> = PerSide::new(1.0, 1.0);
+const UNIT_FACTORS: PerSide<f64> = PerSide::new(1.0, 1.0);
 
 impl Drive {
     /// Belts that follow the encoders exactly.
     pub fn direct() -> Self {
         Self {
-            gain: NONE,
-            backward: NONE,
+            gain: UNIT_FACTORS,
+            backward: UNIT_FACTORS,
             changes_at: 0.0,
-            later: NONE,
+            later: UNIT_FACTORS,
             slip_per_traction: 0.0,
             time_constant: PerSide::new(0.0, 0.0),
         }
@@ -38,7 +38,7 @@ impl Drive {
 
     /// Whether the gains are the same in both directions and at all times.
     pub fn has_one_gain(&self) -> bool {
-        self.backward == NONE && self.later == NONE
+        self.backward == UNIT_FACTORS && self.later == UNIT_FACTORS
     }
 
     /// Mean of the time constants of both sides, s.

@@ -64,7 +64,7 @@ mod tests {
     use trackdyn_core::document::Document;
 
     /// Auriga-alpha as written by the program, with deviations.
-    const MEASURED: &str = r#"schema = "trackdyn.vehicle/1"
+    const MEASURED_VEHICLE: &str = r#"schema = "trackdyn.vehicle/1"
 name = "Auriga-alpha"
 mass_kg = 258.0
 mass_kg_sd = 0.5
@@ -91,23 +91,23 @@ mu_y_sd = 0.1
 
     #[test]
     fn deviations_are_read_and_written_back() {
-        let file = read(MEASURED).expect("a vehicle");
+        let file = read(MEASURED_VEHICLE).expect("a vehicle");
         let friction = FrictionUncertainty { across: Some(0.2), along: Some(0.1) };
         assert_eq!(
             file.vehicle.uncertainty,
             Uncertainty { mass: Some(0.5), gauge: Some(0.0), cog: Some([0.005, 0.01]), friction }
         );
-        assert_eq!(file.to_toml(), MEASURED);
+        assert_eq!(file.to_toml(), MEASURED_VEHICLE);
         // Keys are independent of each other.
-        for line in MEASURED.split_inclusive('\n').filter(|line| line.contains("_sd")) {
-            let text = MEASURED.replace(line, "");
+        for line in MEASURED_VEHICLE.split_inclusive('\n').filter(|line| line.contains("_sd")) {
+            let text = MEASURED_VEHICLE.replace(line, "");
             assert_eq!(read(&text).expect("a vehicle").to_toml(), text);
         }
     }
 
     #[test]
     fn a_file_without_deviations_keeps_its_text_and_so_its_fingerprint() {
-        let lines = MEASURED.split_inclusive('\n');
+        let lines = MEASURED_VEHICLE.split_inclusive('\n');
         let text: String = lines.filter(|line| !line.contains("_sd")).collect();
         let file = VehicleFile::auriga_alpha();
         assert_eq!(file.vehicle.uncertainty, Uncertainty::default());
@@ -147,7 +147,7 @@ mu_y_sd = 0.1
                  more",
             ),
         ] {
-            let refusal = read(&MEASURED.replace(from, to)).expect_err("no deviation");
+            let refusal = read(&MEASURED_VEHICLE.replace(from, to)).expect_err("no deviation");
             assert!(refusal.starts_with(message), "{refusal}");
         }
     }

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Most tapes that are kept: those of the hypotheses that are worked on.
-const MAX_KEPT: usize = 1000;
+const MAX_TAPES: usize = 1000;
 
 /// A tape for each set of values; none where the function cannot be traced there.
 pub struct Retraced {
@@ -39,7 +39,7 @@ impl Retraced {
         let tape = taped.map(|(steps, results)| Tape::new(self.counts, &steps, results));
         let tape = tape.transpose()?.map(Arc::new);
         let mut known = known();
-        if known.len() >= MAX_KEPT {
+        if known.len() >= MAX_TAPES {
             known.clear();
         }
         known.insert(key, tape.clone());

@@ -5,8 +5,8 @@ use crate::Error;
 use crate::table::Table;
 
 /// What a cell of a row of units may be.
-const EXPECTED: &str = "a number, or in a row of units one that --columns takes and that is not \
-                        contrary to it";
+const EXPECTED_CELL: &str = "a number, or in a row of units one that --columns takes and that is \
+                             not contrary to it";
 
 /// Columns with the units of the current row, where that is a row of units; none where it is not.
 ///
@@ -37,7 +37,7 @@ pub(super) fn of_row(columns: &Columns, table: &Table) -> Result<Option<Columns>
         }
         let unit = key.unit(&text).filter(|unit| column.unit == Unit::Open || column.unit == *unit);
         let Some(unit) = unit else {
-            return Err(table.cell_error(place, EXPECTED));
+            return Err(table.cell_error(place, EXPECTED_CELL));
         };
         column.unit = unit;
     }

@@ -37,7 +37,7 @@ pub(crate) fn clean<S: Sample>(series: &mut Series<S>, run: i64, cleanings: &mut
     for (index, sample) in samples.iter().enumerate() {
         row.clear();
         sample.push_columns(&mut row);
-        if row[..S::NEEDED].iter().all(|value| value.is_finite()) {
+        if row[..S::NEEDED_COLUMNS].iter().all(|value| value.is_finite()) {
             kept.push(index);
         } else {
             if not_finite == 0 {

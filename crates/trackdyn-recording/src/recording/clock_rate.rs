@@ -48,7 +48,7 @@ const ITERATIONS: usize = 8;
 const MIN_ERRORS: f64 = 6.0;
 
 /// Largest part of the squares that one delay leaves of the turns, that a rate leaves.
-const MAX_LEFT: f64 = 0.9;
+const MAX_RESIDUAL_SHARE: f64 = 0.9;
 
 /// Delays around that of the rate that are tried as one delay, in steps of a fraction of
 /// [`DELAY_STEP`].
@@ -170,7 +170,7 @@ impl Rate {
         let one_delay = (-ONE_DELAY_STEPS..=ONE_DELAY_STEPS)
             .filter_map(|step| left(self.tau + ONE_DELAY_STEP * f64::from(step), 0.0));
         let best = one_delay.fold(f64::INFINITY, f64::min);
-        left(self.tau, self.value).is_some_and(|left| left < MAX_LEFT * best)
+        left(self.tau, self.value).is_some_and(|left| left < MAX_RESIDUAL_SHARE * best)
     }
 }
 

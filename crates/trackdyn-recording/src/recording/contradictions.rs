@@ -26,9 +26,9 @@ const MIN_CONTRADICTION: f64 = 5.0;
 /// alike, tracks that spin on the spot do not.
 const MAX_QUARTILE_RATIO: f64 = 2.0;
 
-/// Part of what one column does to the turn, or to the way forward, that the other does where the
-/// two are no sides: of sides both turn the robot alike, and within a factor of the α and the ICRs
-/// of any robot.
+/// Largest ratio of the effects of two columns on the turn, or on the way forward, at which they
+/// are no pair of left and right. Both sides of a robot turn it alike, within a factor of its α and
+/// ICRs.
 const MAX_PART: f64 = 0.3;
 
 /// Standard errors of it that are counted in.
@@ -44,11 +44,11 @@ const MIN_CONTRAST: f64 = 0.3;
 const MAX_INTERVAL: f64 = 2.0;
 
 /// Least way that one track runs more than the other, m, before yaw has to have changed.
-const MIN_TURNING: f64 = 1.0;
+const MIN_WAY_DIFFERENCE: f64 = 1.0;
 
 /// Least turning in degrees per metre that one track runs more than the other: that of ICRs 14 m
 /// apart; in radians, of ICRs 0.25 m apart.
-const MIN_DEGREES: f64 = 4.0;
+const MIN_DEGREES_PER_METRE: f64 = 4.0;
 
 /// Least ratio of ways that differ by that of two units, where all stretches agree.
 const MIN_UNIT_RATIO: f64 = 3.0;
@@ -61,7 +61,7 @@ const MAX_UNIT_QUARTILE_RATIO: f64 = 1.3;
 
 /// How far twice the sum of path and heading is from half a turn at most, rad, where the heading is
 /// that of a compass.
-const MAX_ACROSS: f64 = 0.5;
+const MAX_COMPASS_DEVIATION: f64 = 0.5;
 
 /// Share of the rows with the stamp of another one from which on stamps are too coarse.
 const MIN_COARSE_SHARE: f64 = 0.5;
@@ -132,7 +132,7 @@ fn yaw_unit(rows: &UncheckedRun) -> Option<Doubt> {
         return Some(Doubt::YawOfCompass);
     }
     // On ice the path says nothing of the heading, but yaw does not outrun the tracks.
-    if !is_no_radian || turned_per_difference(rows) <= MIN_DEGREES {
+    if !is_no_radian || turned_per_difference(rows) <= MIN_DEGREES_PER_METRE {
         return None;
     }
     if is_compass(&degrees[1], by_degrees) {
@@ -163,7 +163,7 @@ impl Directions {
     /// Whether their mean is nearly a right angle: path and heading add up to it where the heading
     /// is clockwise from the y axis.
     fn is_across(&self) -> bool {
-        self.sin.atan2(-self.cos).abs() < MAX_ACROSS
+        self.sin.atan2(-self.cos).abs() < MAX_COMPASS_DEVIATION
     }
 }
 
@@ -228,7 +228,7 @@ fn turn_in_degrees(runs: &[Run]) -> Option<Doubt> {
         return None;
     }
     let per_metre = Following::of(runs, &|_, _, _| false)?.turn;
-    (per_metre > MIN_DEGREES).then_some(Doubt::TurnInDegrees { per_metre })
+    (per_metre > MIN_DEGREES_PER_METRE).then_some(Doubt::TurnInDegrees { per_metre })
 }
 
 /// Sides that count backwards or are swapped.
@@ -277,7 +277,7 @@ fn orientation(runs: &[Run]) -> Option<Doubt> {
         steps.map(|pair| (pair[0].v_right - pair[0].v_left).abs() * (pair[1].t - pair[0].t)).sum()
     };
     let turning: f64 = runs.iter().map(turning).sum();
-    (turning >= MIN_TURNING && runs.iter().all(is_constant))
+    (turning >= MIN_WAY_DIFFERENCE && runs.iter().all(is_constant))
         .then_some(Doubt::ConstantOrientation { turning })
 }
 

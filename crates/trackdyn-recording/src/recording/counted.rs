@@ -12,14 +12,14 @@ use trackdyn_core::robust::quantile;
 use trackdyn_core::{PerSide, Side};
 
 /// Least part of the squares that the poses leave of speeds that are none.
-const MIN_UNEXPLAINED: f64 = 0.4;
+const MIN_SPEED_RESIDUAL: f64 = 0.4;
 
 /// Largest part that they leave of the changes of positions.
-const MAX_UNEXPLAINED: f64 = 0.15;
+const MAX_CHANGE_RESIDUAL: f64 = 0.15;
 
 /// Share of the changes that are nearly all, and by how much a wrap is larger.
-const NEARLY_ALL: f64 = 0.9;
-const MIN_WRAP: f64 = 5.0;
+const MAIN_SHARE: f64 = 0.9;
+const MIN_WRAP_RATIO: f64 = 5.0;
 
 /// Sides of which positions were taken for speeds.
 pub(super) fn of(runs: &[Run], by_delay: &ByDelay) -> Option<Doubt> {
@@ -35,20 +35,20 @@ pub(super) fn of(runs: &[Run], by_delay: &ByDelay) -> Option<Doubt> {
 fn is_counted(by_delay: &ByDelay, side: Side) -> Option<[f64; 2]> {
     let of_speed = |rows: &[Row]| unexplained(rows, |row| row.ways[side]);
     // Of most logs the first delay says so.
-    if by_delay.rows().any(|rows| of_speed(rows) < MIN_UNEXPLAINED) {
+    if by_delay.rows().any(|rows| of_speed(rows) < MIN_SPEED_RESIDUAL) {
         return None;
     }
     let least = |of: &dyn Fn(&[Row]) -> f64| by_delay.rows().map(of).min_by(f64::total_cmp);
     let as_speed = least(&of_speed)?;
     let as_position = least(&|rows| {
         let mut sizes: Vec<f64> = rows.iter().map(|row| row.changes[side].abs()).collect();
-        let limit = MIN_WRAP * quantile(&mut sizes, NEARLY_ALL).unwrap_or_default();
+        let limit = MIN_WRAP_RATIO * quantile(&mut sizes, MAIN_SHARE).unwrap_or_default();
         let is_change = |row: &&Row| row.changes[side].abs() <= limit;
         let rows: Vec<Row> = rows.iter().filter(is_change).copied().collect();
         let moves = rows.iter().any(|row| row.changes[side] != 0.0);
         if moves { unexplained(&rows, |row| row.changes[side]) } else { 1.0 }
     })?;
-    (as_position <= MAX_UNEXPLAINED).then_some([as_speed, as_position])
+    (as_position <= MAX_CHANGE_RESIDUAL).then_some([as_speed, as_position])
 }
 
 #[cfg(test)]

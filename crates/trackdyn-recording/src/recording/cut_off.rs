@@ -26,13 +26,13 @@ const MIN_READINGS: usize = 3;
 /// Least part of the readings that are multiples of the step, and by how much of it they may be
 /// off: the rest was mended.
 const MIN_SHARE: f64 = 0.98;
-const MAX_OFF: f64 = 0.02;
+const MAX_STEP_DEVIATION: f64 = 0.02;
 
 /// Differences of speeds that are rounding, as share of the largest speed.
 const ROUNDING: f64 = 1e-6;
 
 /// Smallest half step, as share of the root mean square of the speeds of its side.
-const MIN_HALF: f64 = 0.005;
+const MIN_HALF_STEP: f64 = 0.005;
 
 /// Standard errors by which κ, the mean of both channels, has to be nearer to one than to zero, and
 /// by which each channel may be off. Slip of real robots, which the errors take for chance, reaches
@@ -41,8 +41,8 @@ const MIN_ERRORS: f64 = 4.0;
 const MAX_ERRORS: f64 = 3.0;
 
 /// Between rounded and cut off, and as far beyond.
-const LEAST: f64 = 0.5;
-const MOST: f64 = 1.5;
+const MIN_KAPPA: f64 = 0.5;
+const MAX_KAPPA: f64 = 1.5;
 
 /// Adds half a step to speeds that are cut off; `cleanings` takes what was found.
 pub(super) fn mend(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
@@ -90,17 +90,18 @@ fn step(speeds: &[f64]) -> Option<f64> {
     let (mut nv, mut nn) = (0.0, 0.0);
     for size in &sizes {
         let n = (size / step).round();
-        if (size / step - n).abs() <= MAX_OFF {
+        if (size / step - n).abs() <= MAX_STEP_DEVIATION {
             nv += n * size;
             nn += n * n;
             step = nv / nn;
         }
     }
-    let is_multiple = |speed: &&f64| (*speed / step - (*speed / step).round()).abs() <= MAX_OFF;
+    let is_multiple =
+        |speed: &&f64| (*speed / step - (*speed / step).round()).abs() <= MAX_STEP_DEVIATION;
     let count = real(speeds.len());
     let share = real(speeds.iter().filter(is_multiple).count()) / count;
     let usual = (speeds.iter().map(|speed| speed * speed).sum::<f64>() / count).sqrt();
-    (share >= MIN_SHARE && 0.5 * step >= MIN_HALF * usual).then_some(step)
+    (share >= MIN_SHARE && 0.5 * step >= MIN_HALF_STEP * usual).then_some(step)
 }
 
 /// Whether the poses tell that speeds of these steps are cut off and not rounded.
@@ -124,9 +125,11 @@ fn are_cut_off(runs: &[Run], steps: PerSide<Option<f64>>) -> bool {
     let cut = channels.iter().map(|one| weight(one) * one[0]).sum::<f64>() / weights;
     let may_be = |[cut, error]: &[f64; 2]| {
         let margin = MAX_ERRORS * error;
-        cut + margin > LEAST && cut - margin < MOST
+        cut + margin > MIN_KAPPA && cut - margin < MAX_KAPPA
     };
-    cut - MIN_ERRORS * weights.powf(-0.5) > LEAST && cut < MOST && channels.iter().all(may_be)
+    cut - MIN_ERRORS * weights.powf(-0.5) > MIN_KAPPA
+        && cut < MAX_KAPPA
+        && channels.iter().all(may_be)
 }
 
 #[cfg(test)]

@@ -2,11 +2,11 @@
 //! for a while, and shows zero or its last speed.
 //!
 //! # Law
-//! Three or more zeros of a side in a row are in question where the speed falls to them at once
-//! and comes back to as much in the same direction, more than a third of the usual one; where they
-//! last for long, one of both is enough. Another speed is in question where it stays for five times
-//! as many readings as nearly all speeds of the side do, those of commands or of coarse encoders
-//! among them, and jumps by that much at the end or lasts for long.
+//! Three zeros of a side in a row are suspect if the speed drops to them and recovers abruptly, in
+//! the same direction and by more than a third of the usual speed. Where they last for long, one of
+//! the two is enough. Another speed is suspect if it stays for five times as many readings as
+//! nearly all speeds of the side do, and jumps by that much at the end or lasts for long. Commands
+//! and coarse encoders repeat their speeds as well.
 //!
 //! What the track ran then is told twice by the other side: by the turn of the poses, and by their
 //! way forward. The encoder was dead where both agree on a way that is off by more than a third of
@@ -30,17 +30,17 @@ use trackdyn_core::robust::{median, quantile, usual_interval};
 use trackdyn_core::{PerSide, Side, real};
 
 /// Fewest equal readings in a row; fewer are spikes or chance.
-const MIN_EQUAL: usize = 3;
+const MIN_EQUAL_READINGS: usize = 3;
 
 /// Times that a speed stays longer than nearly all speeds of its side, where it is in question.
-const MIN_TIMES_LONGER: f64 = 5.0;
+const MIN_DURATION_RATIO: f64 = 5.0;
 
 /// Largest share of the readings of a side that show the last speed of a dead encoder.
-const MAX_STUCK: f64 = 0.05;
+const MAX_STUCK_SHARE: f64 = 0.05;
 
 /// Share of the log that counts as nearly all of it, and by how much more a stuck speed is off.
-const NEARLY_ALL: f64 = 0.95;
-const MIN_TIMES_OFF: f64 = 2.0;
+const MAIN_SHARE: f64 = 0.95;
+const MIN_DEVIATION_RATIO: f64 = 2.0;
 
 /// Fewest pieces of a time at a speed that is not zero: one alone may be a lag.
 const MIN_PIECES: usize = 2;
@@ -49,7 +49,7 @@ const MIN_PIECES: usize = 2;
 const MIN_SHARE: f64 = 1.0 / 3.0;
 
 /// Time that no slide lasts, s.
-const MIN_LONG: f64 = 3.0;
+const MAX_SLIDE_TIME: f64 = 3.0;
 
 /// Agreement of both ways from which on they are those of one track.
 const MIN_AGREEMENT: f64 = 0.5;
@@ -95,7 +95,7 @@ pub(super) fn leave_out(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
         if equal.shown == 0.0 {
             moved(run, equal, &following, least, 1)
         } else {
-            let least = least.max(MIN_TIMES_OFF * usually_off[equal.side]);
+            let least = least.max(MIN_DEVIATION_RATIO * usually_off[equal.side]);
             moved(run, equal, &following, least, MIN_PIECES)
         }
     };
@@ -104,7 +104,7 @@ pub(super) fn leave_out(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
     for side in Side::BOTH {
         let is_stuck = |equal: &Equal| equal.side == side && equal.shown != 0.0;
         let stuck = dead.iter().filter(|equal| is_stuck(equal)).map(|equal| equal.rows.len());
-        if real(stuck.sum()) > MAX_STUCK * real(readings) {
+        if real(stuck.sum()) > MAX_STUCK_SHARE * real(readings) {
             dead.retain(|equal| !is_stuck(equal));
         }
     }
@@ -154,21 +154,21 @@ fn equals(index: usize, run: &Run, side: Side, usual: f64) -> Vec<Equal> {
     let chunks = || tracks.chunk_by(|a, b| a.speeds()[side] == b.speeds()[side]);
     let of_speeds = chunks().filter(|equal| equal[0].speeds()[side] != 0.0);
     let mut lengths: Vec<f64> = of_speeds.map(|equal| real(equal.len())).collect();
-    let usual_length = quantile(&mut lengths, NEARLY_ALL).unwrap_or_default();
+    let usual_length = quantile(&mut lengths, MAIN_SHARE).unwrap_or_default();
     let mut found = Vec::new();
     let mut end = 0;
     for equal in chunks() {
         let rows = end..end + equal.len();
         end = rows.end;
         let shown = speed(rows.start);
-        if rows.len() < MIN_EQUAL {
+        if rows.len() < MIN_EQUAL_READINGS {
             continue;
         }
         let beside = [rows.start.checked_sub(1), Some(end).filter(|end| *end < tracks.len())];
         let [before, after] = beside.map(|row| row.map(speed));
         let last = end.min(tracks.len() - 1);
         let time = [tracks[rows.start].t, tracks[last].t];
-        let is_long = time[1] - time[0] >= MIN_LONG;
+        let is_long = time[1] - time[0] >= MAX_SLIDE_TIME;
         let is_questioned = if shown == 0.0 {
             match [before, after] {
                 [None, None] => is_long,
@@ -176,7 +176,7 @@ fn equals(index: usize, run: &Run, side: Side, usual: f64) -> Vec<Equal> {
                 both => is_long && both.into_iter().flatten().any(is_fast),
             }
         } else {
-            real(rows.len()) >= MIN_TIMES_LONGER * usual_length
+            real(rows.len()) >= MIN_DURATION_RATIO * usual_length
                 && (is_long || after.is_some_and(|after| is_fast(after - shown)))
         };
         if is_questioned {
@@ -215,7 +215,7 @@ fn usually_off(
         taken.map(speed).collect()
     };
     let mut all: Vec<f64> = runs.iter().enumerate().flat_map(of_run).collect();
-    quantile(&mut all, NEARLY_ALL).unwrap_or(f64::INFINITY)
+    quantile(&mut all, MAIN_SHARE).unwrap_or(f64::INFINITY)
 }
 
 /// Whether the track moved otherwise by what the poses say: by more than `least`, m/s, in so many

@@ -2,10 +2,10 @@
 //! a link that sends more often than it measures.
 //!
 //! # Law
-//! A pose that is equal to the last digit was not measured again where the tracks have run since
-//! the first of its kind; it is dropped. Poses may be late: what the tracks ran is taken earlier by
-//! the delay with which the poses follow them, and where the robot stands at the first of its kind,
-//! by as much as that delay is known. Poses with a yaw alone stay the same in straight driving.
+//! A pose that repeats the one before to the last digit was not measured again if the tracks have
+//! run since; it is dropped. Poses may be late, so the travel of the tracks is taken earlier by the
+//! delay of the poses. Where the robot stands at the first of equal poses, the error of that delay
+//! is allowed for. Poses with a yaw alone stay the same in straight driving.
 
 use super::Run;
 use super::cleaning::MIN_GAP_RATIO;

@@ -17,7 +17,7 @@ const MIN_STRETCHES: usize = 20;
 const MAX_CHANGE: f64 = 1e-9;
 
 /// Part of the squares that constant speeds have to explain.
-const MIN_EXPLAINED: f64 = 0.7;
+const MIN_EXPLAINED_SHARE: f64 = 0.7;
 
 /// Turns of this size are none of noise, rad.
 const MIN_TURN: f64 = 0.1;
@@ -82,7 +82,7 @@ fn are_explained(stretches: &[Stretch], dead: Option<Side>) -> bool {
     };
     let [turn, turns] = left_of(|stretch| stretch.turn);
     let [way, ways] = left_of(|stretch| stretch.forward);
-    let is_explained = |left: f64, all: f64| left <= (1.0 - MIN_EXPLAINED) * all;
+    let is_explained = |left: f64, all: f64| left <= (1.0 - MIN_EXPLAINED_SHARE) * all;
     let is_noise = turn <= real(stretches.len()) * MIN_TURN * MIN_TURN;
     (is_explained(turn, turns) || is_noise) && is_explained(way, ways)
 }

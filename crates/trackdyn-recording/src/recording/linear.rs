@@ -31,7 +31,7 @@ const PARTS: usize = 20;
 
 /// Rounds of reweighting by Huber's loss, and its limit in standard deviations.
 const ROUNDS: usize = 10;
-const HUBER: f64 = 1.345;
+const HUBER_THRESHOLD: f64 = 1.345;
 
 /// Row of a fit: D_l, D_r, T, and turn, way forward.
 type Row = (Vector3<f64>, [f64; 2]);
@@ -46,9 +46,9 @@ pub(super) struct Linear {
 }
 
 impl Linear {
-    /// By pieces of at least a time, s, but for those that are left out, and by the delay of the
-    /// poses that leaves least of the turns; none where pieces are few, or the sides do not run
-    /// apart from each other.
+    /// Fits pieces of at least `least` seconds, but for those that are left out, at the delay of
+    /// the poses that leaves least of the turns. None where pieces are few, or where the ways of
+    /// both sides are proportional.
     pub(super) fn of(
         runs: &[Run],
         least: f64,
@@ -182,7 +182,7 @@ fn weights(rows: &[Row], channel: usize) -> Vec<f64> {
         let Some(by) = solved(rows, &|k| weights[k], channel) else { break };
         let left: Vec<f64> = rows.iter().map(|(of, seen)| seen[channel] - of.dot(&by)).collect();
         let spread = deviation_about_zero(&mut left.clone()).unwrap_or_default();
-        let limit = HUBER * spread.max(f64::MIN_POSITIVE);
+        let limit = HUBER_THRESHOLD * spread.max(f64::MIN_POSITIVE);
         weights = left.iter().map(|left| (limit / left.abs()).min(1.0)).collect();
     }
     weights

@@ -33,17 +33,17 @@ const MIN_PIECES: usize = 12;
 /// Part of the way that a track has to run further than its readings say, beyond that at speeds
 /// nearly as large, or where there are none of these. Loads that shift at top speed change what
 /// tracks do by some percent.
-const MIN_MISSING: f64 = 0.1;
-const MIN_MISSING_ALONE: f64 = 0.15;
+const MIN_MISSING_SHARE: f64 = 0.1;
+const MIN_MISSING_SHARE_ALONE: f64 = 0.15;
 
 /// Speeds that are nearly as large, as share of the largest.
-const NEARLY: [f64; 2] = [0.5, 0.97];
+const COMPARED_SPEEDS: [f64; 2] = [0.5, 0.97];
 
 /// This in standard errors.
 const MIN_ERRORS: f64 = 6.0;
 
 /// Smallest part of a piece that lies in such readings.
-const MIN_WITHIN: f64 = 0.8;
+const MIN_WITHIN_SHARE: f64 = 0.8;
 
 /// The largest speed of a side in one sense.
 #[derive(Clone, Copy, Debug)]
@@ -167,9 +167,9 @@ fn runs_faster(
             let part = read[limit.side] / whole;
             let within = overlap(&times[index], piece, linear.delay);
             let is_other = others(index, piece);
-            let [low, high] = NEARLY;
+            let [low, high] = COMPARED_SPEEDS;
             let is_nearly = within == 0.0 && !is_other && (low..high).contains(&part);
-            if within <= MIN_WITHIN && !is_nearly {
+            if within <= MIN_WITHIN_SHARE && !is_nearly {
                 continue;
             }
             let ways = linear.ways(limit.side, piece, read);
@@ -188,9 +188,9 @@ fn runs_faster(
     [alone, together].iter().filter_map(|missing| Mean::of(missing)).any(|missing| {
         let (beyond, error, least) = match usual {
             Some(usual) => {
-                (missing.value - usual.value, missing.error.hypot(usual.error), MIN_MISSING)
+                (missing.value - usual.value, missing.error.hypot(usual.error), MIN_MISSING_SHARE)
             }
-            None => (missing.value, missing.error, MIN_MISSING_ALONE),
+            None => (missing.value, missing.error, MIN_MISSING_SHARE_ALONE),
         };
         beyond > least && beyond > MIN_ERRORS * error
     })

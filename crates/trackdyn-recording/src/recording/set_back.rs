@@ -1,10 +1,10 @@
 //! Rows of tables after a clock that was set back.
 //!
 //! # Law
-//! Rows step back where some of them in a row lie before as many above them, by more than a gap.
-//! They are a run of their own where sorting would not mend it: where both stretches cover one time
-//! and have more rows in it than the usual interval leaves room for; or where they share no time,
-//! and do not follow each other without a gap either. All else is rows out of order.
+//! Rows step back where some in a row are earlier than as many rows above them, by more than a gap.
+//! They form a new run if both stretches overlap in time, with more rows there than the usual
+//! interval leaves room for, or if a gap separates them. All else is rows out of order, which
+//! sorting mends.
 
 use super::cleaning::longest_interval;
 use super::run::UncheckedRun;

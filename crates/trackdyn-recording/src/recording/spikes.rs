@@ -46,16 +46,16 @@ const MIN_RATIO: f64 = 4.0;
 const USUAL_SHARE: f64 = 0.9;
 
 /// Distance of a spike in the largest usual speed: smaller ones do no harm.
-const MIN_OF_SPEED: f64 = 0.5;
+const MIN_SPEED_SHARE: f64 = 0.5;
 
 /// Acceleration that no track has, m/s².
 pub(super) const MAX_ACCELERATION: f64 = 10.0;
 
 /// Factor on the limit within [`HALF_WINDOW`] of the ends of a run.
-const AT_END: f64 = 4.0;
+const END_FACTOR: f64 = 4.0;
 
 /// Fewest readings of a spike that leaves a gap.
-const MIN_DROPPED: usize = 5;
+const MIN_GAP_READINGS: usize = 5;
 
 /// Replaces the spikes of either side; `usual` is the [largest usual
 /// speed](super::wide_spikes::largest_usual_speed), m/s, and `cleanings` takes what was found.
@@ -84,7 +84,7 @@ pub(super) fn mend(
             bridge(&times, speeds, spikes);
         };
         let wide = wide_spikes(&speeds, usual, Distances::of(&speeds, possible).least);
-        let long = wide.iter().filter(|spike| spike.len() >= MIN_DROPPED);
+        let long = wide.iter().filter(|spike| spike.len() >= MIN_GAP_READINGS);
         dropped.extend(long.cloned().flatten());
         replace(&mut speeds, &wide.into_iter().flatten().collect::<Vec<usize>>());
         let narrow = Distances::of(&speeds, possible).spikes();
@@ -129,8 +129,10 @@ impl Distances {
         let far = quantile(&mut sorted, GOOD_SHARE).unwrap_or(0.0);
         let spread = deviation_about_zero(&mut sorted).unwrap_or(0.0);
         let usual = quantile(&mut sizes, USUAL_SHARE).unwrap_or(0.0);
-        let least =
-            (MIN_DEVIATIONS * spread).max(MIN_RATIO * far).max(MIN_OF_SPEED * usual).max(possible);
+        let least = (MIN_DEVIATIONS * spread)
+            .max(MIN_RATIO * far)
+            .max(MIN_SPEED_SHARE * usual)
+            .max(possible);
         Self { of_readings, least }
     }
 
@@ -138,7 +140,7 @@ impl Distances {
     fn spikes(&self) -> Vec<usize> {
         let count = self.of_readings.len();
         let is_at_end = |k: usize| k < HALF_WINDOW || k + HALF_WINDOW >= count;
-        let limit = |k: usize| if is_at_end(k) { AT_END * self.least } else { self.least };
+        let limit = |k: usize| if is_at_end(k) { END_FACTOR * self.least } else { self.least };
         (0..count).filter(|&k| self.of_readings[k] > limit(k)).collect()
     }
 }
@@ -167,7 +169,7 @@ mod tests {
     use super::*;
 
     /// Largest usual speed, m/s.
-    const USUAL: f64 = 0.9;
+    const USUAL_SPEED: f64 = 0.9;
 
     /// A drive at 50 Hz that speeds up, turns, stops and reverses, with noise of 5 mm/s.
     fn drive() -> Vec<TrackSample> {
@@ -190,7 +192,7 @@ mod tests {
     #[test]
     fn what_is_no_spike_stays_to_the_last_digit() {
         let (mut tracks, mut cleanings) = (drive(), Vec::new());
-        mend(&mut tracks, USUAL, 0, &mut cleanings);
+        mend(&mut tracks, USUAL_SPEED, 0, &mut cleanings);
         assert_eq!(tracks, drive());
         assert!(cleanings.is_empty());
         // commands that last for one reading are driving, where there are many of them
@@ -201,7 +203,7 @@ mod tests {
             .map(|(k, sample)| TrackSample { v_left: pulses(k), ..*sample })
             .collect();
         let mut tracks = pulsed.clone();
-        mend(&mut tracks, USUAL, 0, &mut cleanings);
+        mend(&mut tracks, USUAL_SPEED, 0, &mut cleanings);
         assert_eq!(tracks, pulsed);
     }
 
@@ -216,7 +218,7 @@ mod tests {
             tracks[place].v_left = value;
         }
         let mut cleanings = Vec::new();
-        mend(&mut tracks, USUAL, 3, &mut cleanings);
+        mend(&mut tracks, USUAL_SPEED, 3, &mut cleanings);
         for (found, good) in tracks.iter().zip(&good) {
             assert!((found.v_left - good.v_left).abs() < 0.02, "{found:?} {good:?}");
             assert_eq!(found.v_right, good.v_right);

@@ -9,7 +9,7 @@ use crate::sample::TrackSample;
 const MIN_WAY: f64 = 1.0;
 
 /// Sum of two squared correlations from which on poses follow the tracks.
-const MAX_EXPLAINED: f64 = 0.7;
+const MAX_EXPLAINED_SHARE: f64 = 0.7;
 
 /// Largest turn of poses that are stuck, rad.
 const MAX_STUCK_TURN: f64 = 0.1;
@@ -41,6 +41,6 @@ pub(super) fn stuck_poses(runs: &[Run], explained: f64) -> Option<Doubt> {
         && extent <= (MAX_STUCK_SHARE * travelled).min(MAX_STUCK_EXTENT)
         && !is_turned
         && runs.iter().all(Run::has_positions)
-        && explained < MAX_EXPLAINED;
+        && explained < MAX_EXPLAINED_SHARE;
     is_stuck.then_some(Doubt::StuckPoses { travelled, extent })
 }

@@ -16,7 +16,7 @@ const MIN_TIME: f64 = 0.5;
 
 /// Least difference of the turns of poses and gyroscope, rad: more than a time between poses, a
 /// delay or a drift leaves.
-const MIN_OFF: f64 = 0.35;
+const MIN_TURN_DIFFERENCE: f64 = 0.35;
 
 /// Drops the readings of stuck gyroscopes; `cleanings` takes what was found.
 pub(super) fn leave_out(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
@@ -57,7 +57,7 @@ fn is_stuck(run: &Run, rows: &Range<usize>) -> bool {
     let rate = imu[rows.start].gyro_z;
     let off =
         |pose: &PoseSample| (pose.pose.yaw - start.pose.yaw - rate * (pose.t - start.t)).abs();
-    poses.iter().any(|pose| off(pose) > MIN_OFF)
+    poses.iter().any(|pose| off(pose) > MIN_TURN_DIFFERENCE)
 }
 
 #[cfg(test)]

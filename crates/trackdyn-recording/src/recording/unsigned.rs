@@ -17,11 +17,11 @@ use trackdyn_core::{PerSide, Side};
 const MAX_OTHER_SIGN: f64 = 0.005;
 
 /// Least part of the squares that has to be unexplained without signs.
-const MIN_UNEXPLAINED: f64 = 0.05;
+const MIN_UNSIGNED_RESIDUAL: f64 = 0.05;
 
 /// Largest part that may be unexplained with signs, and its largest part of that without.
-const MAX_UNEXPLAINED: f64 = 0.15;
-const MAX_LEFT: f64 = 0.25;
+const MAX_SIGNED_RESIDUAL: f64 = 0.15;
+const MAX_RESIDUAL_RATIO: f64 = 0.25;
 
 /// Least part of its way that a track has to have run the other way.
 const MIN_SHARE: f64 = 0.03;
@@ -67,8 +67,8 @@ fn unsigned(by_delay: &ByDelay, side: Side) -> Option<Unsigned> {
     let tried = levers
         .flat_map(|lever| by_delay.rows().map(move |rows| left_with_signs(rows, side, lever)));
     let [with_signs, share] = tried.min_by(least)?;
-    let is_found = as_read >= MIN_UNEXPLAINED
-        && with_signs <= MAX_UNEXPLAINED.min(MAX_LEFT * as_read)
+    let is_found = as_read >= MIN_UNSIGNED_RESIDUAL
+        && with_signs <= MAX_SIGNED_RESIDUAL.min(MAX_RESIDUAL_RATIO * as_read)
         && share >= MIN_SHARE;
     is_found.then_some(Unsigned { share, unexplained: [as_read, with_signs] })
 }
@@ -112,7 +112,7 @@ mod tests {
     const SEPARATION: f64 = 1.02;
 
     /// Commands of both sides, m/s, three seconds each.
-    const BOTH_WAYS: [[f64; 2]; 8] = [
+    const COMMANDS_BOTH_WAYS: [[f64; 2]; 8] = [
         [0.5, 0.5],
         [-0.4, 0.4],
         [0.7, 0.3],
@@ -122,7 +122,7 @@ mod tests {
         [0.0, 0.0],
         [-0.1, 0.5],
     ];
-    const FORWARD: [[f64; 2]; 8] = [
+    const FORWARD_COMMANDS: [[f64; 2]; 8] = [
         [0.5, 0.5],
         [0.4, 0.6],
         [0.7, 0.3],
@@ -176,7 +176,7 @@ mod tests {
         vec![Run::new(rows, &mut Vec::new())]
     }
 
-    const USUAL: [f64; 3] = [0.01, 0.01, 0.01];
+    const USUAL_NOISE: [f64; 3] = [0.01, 0.01, 0.01];
 
     fn found(runs: &[Run]) -> Option<(Option<Side>, f64)> {
         match of(runs, &ByDelay::new(runs)) {
@@ -188,33 +188,37 @@ mod tests {
     #[test]
     fn absolute_values_of_both_sides_or_of_one_are_found() {
         for late in [0.0, 0.3, -0.2, 3.0] {
-            let both = drive(&BOTH_WAYS, late, USUAL, |v| v.map(f64::abs));
+            let both = drive(&COMMANDS_BOTH_WAYS, late, USUAL_NOISE, |v| v.map(f64::abs));
             let (side, share) = found(&both).expect("unsigned");
             assert!(side.is_none() && (0.2..0.5).contains(&share), "{late} {share}");
-            let left = drive(&BOTH_WAYS, late, USUAL, |[l, r]| [l.abs(), r]);
+            let left = drive(&COMMANDS_BOTH_WAYS, late, USUAL_NOISE, |[l, r]| [l.abs(), r]);
             assert_eq!(found(&left).map(|(side, _)| side), Some(Some(Side::Left)), "{late}");
-            let right = drive(&BOTH_WAYS, late, USUAL, |[l, r]| [l, -r.abs()]);
+            let right = drive(&COMMANDS_BOTH_WAYS, late, USUAL_NOISE, |[l, r]| [l, -r.abs()]);
             assert_eq!(found(&right).map(|(side, _)| side), Some(Some(Side::Right)), "{late}");
         }
-        let rough = drive(&BOTH_WAYS, 0.1, [0.1, 0.05, 0.05], |v| v.map(f64::abs));
+        let rough = drive(&COMMANDS_BOTH_WAYS, 0.1, [0.1, 0.05, 0.05], |v| v.map(f64::abs));
         assert!(found(&rough).is_some());
     }
 
     #[test]
     fn signed_speeds_are_fine() {
         for late in [0.0, 1.7, 9.0] {
-            assert_eq!(found(&drive(&BOTH_WAYS, late, USUAL, |v| v)), None, "{late}");
+            assert_eq!(
+                found(&drive(&COMMANDS_BOTH_WAYS, late, USUAL_NOISE, |v| v)),
+                None,
+                "{late}"
+            );
         }
     }
 
     #[test]
     fn a_drive_that_only_goes_forward_is_fine_however_late_or_rough() {
         for late in [0.0, 0.3, -0.7, 1.7, 5.3, 9.0] {
-            for noises in [USUAL, [0.2, 0.08, 0.08]] {
-                let runs = drive(&FORWARD, late, noises, |v| v.map(f64::abs));
+            for noises in [USUAL_NOISE, [0.2, 0.08, 0.08]] {
+                let runs = drive(&FORWARD_COMMANDS, late, noises, |v| v.map(f64::abs));
                 assert_eq!(found(&runs), None, "{late} {noises:?}");
                 let coarse = |v: f64| (v.abs() / 0.2).round() * 0.2;
-                let runs = drive(&FORWARD, late, noises, |v| v.map(coarse));
+                let runs = drive(&FORWARD_COMMANDS, late, noises, |v| v.map(coarse));
                 assert_eq!(found(&runs), None, "{late} {noises:?}");
             }
         }
@@ -224,7 +228,7 @@ mod tests {
     #[test]
     fn other_faults_are_no_missing_signs() {
         for scale in [-1.0, 0.001, 39.37] {
-            let runs = drive(&FORWARD, 0.2, USUAL, |v| v.map(|v| scale * v.abs()));
+            let runs = drive(&FORWARD_COMMANDS, 0.2, USUAL_NOISE, |v| v.map(|v| scale * v.abs()));
             assert_eq!(found(&runs), None, "{scale}");
         }
     }

@@ -280,7 +280,7 @@ pub enum Warning {
 }
 
 /// Largest share of the poses that an IMU covers where the rest is worth a word.
-const MAX_COVERED: f64 = 0.9;
+const MAX_COVERED_SHARE: f64 = 0.9;
 
 impl Warning {
     /// Said of an IMU that covers a part of the poses of these runs; none of one that covers them,
@@ -297,7 +297,8 @@ impl Warning {
             };
             covered += run.imu().windows(2).map(within).sum::<f64>();
         }
-        (covered > 0.0 && covered < MAX_COVERED * of).then_some(Self::ImuOfAPart { covered, of })
+        (covered > 0.0 && covered < MAX_COVERED_SHARE * of)
+            .then_some(Self::ImuOfAPart { covered, of })
     }
 
     /// Relative error that all yaw of the recording shares by what it is made of, 1: a standard
@@ -506,7 +507,7 @@ const CLOCKS: [(f64, &str); 3] = [
 ];
 
 /// How far an offset is from one of these, s: messages are late.
-const MAX_LATE: f64 = 0.5;
+const MAX_OFFSET_ERROR: f64 = 0.5;
 
 /// What an offset of two clocks, s, is where it is that of usual ones.
 ///
@@ -516,7 +517,7 @@ const MAX_LATE: f64 = 0.5;
 /// assert_eq!(known_offset(25.0), None);
 /// ```
 pub fn known_offset(offset: f64) -> Option<&'static str> {
-    let near = CLOCKS.iter().find(|(of, _)| (offset.abs() - of).abs() < MAX_LATE);
+    let near = CLOCKS.iter().find(|(of, _)| (offset.abs() - of).abs() < MAX_OFFSET_ERROR);
     near.map(|(_, name)| *name)
 }
 

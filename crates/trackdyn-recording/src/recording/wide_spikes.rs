@@ -18,7 +18,7 @@ use trackdyn_core::robust::quantile;
 const MIN_WIDTH: usize = 3;
 
 /// Least speed of a reading of a track that moves, m/s.
-const MIN_MOVING: f64 = 0.02;
+const MIN_MOVING_SPEED: f64 = 0.02;
 
 /// Share of the moving readings that are no spikes, whatever happens.
 const GOOD_SHARE: f64 = 0.97;
@@ -29,7 +29,8 @@ const MIN_SPEED_RATIO: f64 = 3.0;
 /// The speed that usual readings keep below, by the speeds of both sides in all runs, m/s; infinite
 /// where nothing moves.
 pub(super) fn largest_usual_speed(speeds: impl Iterator<Item = f64>) -> f64 {
-    let mut moving: Vec<f64> = speeds.map(f64::abs).filter(|size| *size > MIN_MOVING).collect();
+    let mut moving: Vec<f64> =
+        speeds.map(f64::abs).filter(|size| *size > MIN_MOVING_SPEED).collect();
     quantile(&mut moving, GOOD_SHARE).unwrap_or(f64::INFINITY)
 }
 

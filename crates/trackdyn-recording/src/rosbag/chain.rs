@@ -29,7 +29,7 @@ use corrections::{MIN_CORRECTIONS, changes, corrections};
 
 /// Of so many poses, at most one lies between corrections where these come at every stamp: some
 /// messages are lost.
-const MAX_LOST: usize = 10;
+const POSES_PER_LOST_CORRECTION: usize = 10;
 
 /// Poses along a chain, and what was done for them.
 pub(super) struct Chain {
@@ -192,7 +192,7 @@ impl Corrected {
         let measured = Composed::of(series, unit, stamps);
         let [corrections, of] = [measured.poses.len(), all.poses.len()];
         let left_out = of.saturating_sub(corrections);
-        if corrections < MIN_CORRECTIONS || MAX_LOST * left_out <= of {
+        if corrections < MIN_CORRECTIONS || POSES_PER_LOST_CORRECTION * left_out <= of {
             return None;
         }
         let interval = usual_interval(measured.poses.iter().map(|(stamp, _)| seconds(*stamp)));

@@ -35,10 +35,10 @@ const MAX_LATENESS: f64 = 2.0;
 const BURSTS: f64 = 15.0;
 
 /// Smallest difference of two clocks that is told, s.
-const MIN_TOLD: f64 = 0.2;
+const MIN_REPORTED_OFFSET: f64 = 0.2;
 
 /// Latest stamp after its own logging, s: rounding and clocks kept equal by a network.
-const MAX_AHEAD: f64 = 0.1;
+const MAX_STAMP_LEAD: f64 = 0.1;
 
 /// Smallest step back of a clock that was set anew, ns.
 const MIN_RESET_NS: i64 = 1_000_000_000;
@@ -244,13 +244,13 @@ fn by_evidence(clocks: &[Clock], warnings: &mut Vec<Warning>) -> By {
     for other in &clocks[1.min(clocks.len())..] {
         let offset = other.ahead - first.ahead;
         let is_shown = other.shown.is_some();
-        if offset.abs() <= MIN_TOLD || by == By::Log || other.count == 0 || is_shown {
+        if offset.abs() <= MIN_REPORTED_OFFSET || by == By::Log || other.count == 0 || is_shown {
             continue;
         }
         let is_as_logged = first.is_as_logged() && other.is_as_logged() && can_log(other);
         // What is logged before its stamp has another clock than the logger.
-        let is_ahead = first.ahead.max(other.ahead) > MAX_AHEAD
-            && first.ahead.min(other.ahead).abs() <= MAX_AHEAD;
+        let is_ahead = first.ahead.max(other.ahead) > MAX_STAMP_LEAD
+            && first.ahead.min(other.ahead).abs() <= MAX_STAMP_LEAD;
         let differ = is_as_logged && (is_ahead || other.differs_from(first));
         if differ {
             by = By::Log;

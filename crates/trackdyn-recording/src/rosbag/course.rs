@@ -52,7 +52,7 @@ const MIN_PIECES: usize = 8;
 const MIN_AGREEMENT: f64 = 0.9;
 
 /// Largest part of the agreement that another bias or scale may reach.
-const MAX_SECOND: f64 = 0.97;
+const MAX_SECOND_AGREEMENT: f64 = 0.97;
 
 /// Steps of least squares.
 const ITERATIONS: usize = 10;
@@ -177,7 +177,7 @@ pub(super) fn aligned(
     let is_other = |other: &Vector3<f64>| {
         (other[1] - at[1]).abs() * yaws + (other[2] - at[2]).abs() * times > PI / 3.0
     };
-    let likely = tried.iter().filter(|(length, _)| *length > MAX_SECOND * agreement);
+    let likely = tried.iter().filter(|(length, _)| *length > MAX_SECOND_AGREEMENT * agreement);
     if likely.map(|(_, other)| other).any(is_other) {
         return Err(
             "the course of the fixes tells several biases of its yaw rates: expected more straight \

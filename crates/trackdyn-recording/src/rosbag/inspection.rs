@@ -8,7 +8,7 @@ use super::message::header;
 use super::options::RosbagOptions;
 use super::payload::{Payload, PayloadError};
 use super::storage;
-use super::topic::{Layout, Role, STATIC, Topic};
+use super::topic::{Layout, Role, STATIC_SUFFIX, Topic};
 use super::twist;
 use super::visitor::Visitor;
 use crate::Error;
@@ -199,7 +199,7 @@ fn suggest_poses(topics: Vec<&TopicSummary>) -> (Option<String>, Option<(String,
     let is_tf = |topic: &&TopicSummary| is_transforms(&topic.kind);
     let (transforms, direct): (Vec<_>, Vec<_>) = topics.into_iter().partition(is_tf);
     let (stays, moves): (Vec<_>, Vec<_>) =
-        transforms.into_iter().partition(|topic| topic.name.ends_with(STATIC));
+        transforms.into_iter().partition(|topic| topic.name.ends_with(STATIC_SUFFIX));
     let (([topic], _) | ([], [topic])) = (direct.as_slice(), moves.as_slice()) else {
         return (None, None);
     };

@@ -11,7 +11,7 @@
 use super::mcap_chunk::{Chunks, Decompressed};
 use super::part::Part;
 use super::ros1_record::split_sized;
-use super::stream::{ENDS_EARLY, MAX_SIZE, Stream, without_topic};
+use super::stream::{EARLY_END, MAX_SIZE, Stream, without_topic};
 use super::topic::Topic;
 use super::visitor::Visitor;
 use crate::Error;
@@ -53,9 +53,9 @@ pub(super) fn scan(part: &Part, visitor: &mut dyn Visitor) -> Result<Vec<Warning
                 if let Some(records) = chunks.cut(data) {
                     show_all(records, &mut channels, visitor, &mut progress);
                 }
-                break Some(ENDS_EARLY.to_owned());
+                break Some(EARLY_END.to_owned());
             }
-            Next::Cut(..) => break Some(ENDS_EARLY.to_owned()),
+            Next::Cut(..) => break Some(EARLY_END.to_owned()),
             Next::TooLong(opcode, length) => {
                 break Some(format!(
                     "a record of kind {opcode:#04x} and {length} bytes is damaged"

@@ -15,7 +15,7 @@ pub(super) enum Part {
 }
 
 /// Parts that may be named beside a wheel or a motor and make it one of their own.
-const OTHER: [&str; 58] = [
+const OTHER_PARTS: [&str; 58] = [
     "flipper",
     "flippers",
     "arm",
@@ -133,7 +133,7 @@ pub(super) fn side(name: &str) -> Option<Side> {
 pub(super) fn part(name: &str) -> Part {
     let words = words(name);
     let has = |list: &[&str]| words.iter().any(|word| list.contains(&word.as_str()));
-    if has(&OTHER) {
+    if has(&OTHER_PARTS) {
         Part::Other
     } else if has(&WHEEL) {
         Part::Wheel

@@ -21,7 +21,7 @@ const OTHER_PACKAGES: [&str; 9] = [
 ];
 
 /// Most topics, and most fields of one, that an offer lists.
-const MAX_OFFERED: usize = 6;
+const MAX_OFFERED_TOPICS: usize = 6;
 const MAX_FIELDS: usize = 16;
 
 /// Words of numbers that are speeds, and of numbers that count on.
@@ -128,8 +128,8 @@ fn what(name: &str) -> What {
 /// An offer of all numbers; none where no topic may have any.
 fn listed(fields: &[(&str, Vec<String>)]) -> Option<String> {
     let (first, _) = fields.first()?;
-    let more = if fields.len() > MAX_OFFERED { " and others" } else { "" };
-    let fields = &fields[..fields.len().min(MAX_OFFERED)];
+    let more = if fields.len() > MAX_OFFERED_TOPICS { " and others" } else { "" };
+    let fields = &fields[..fields.len().min(MAX_OFFERED_TOPICS)];
     let names: Vec<&str> = fields.iter().map(|(topic, _)| *topic).collect();
     let known = fields.iter().filter(|(_, fields)| !fields.is_empty());
     let known: Vec<String> = known

@@ -1,6 +1,6 @@
 //! What to take from a bag.
 
-use super::topic::STATIC;
+use super::topic::STATIC_SUFFIX;
 use crate::doubt::DoubtKind;
 use crate::recording::PoseAxes;
 use crate::table_options::TableOptions;
@@ -124,7 +124,8 @@ impl RosbagOptions {
     /// hold at all times beside it.
     pub(super) fn may_hold_poses(&self, topic: &str) -> bool {
         self.pose_topic.as_deref().is_none_or(|named| {
-            topic == named || topic.strip_suffix(STATIC).is_some_and(|moving| moving == named)
+            topic == named
+                || topic.strip_suffix(STATIC_SUFFIX).is_some_and(|moving| moving == named)
         })
     }
 }

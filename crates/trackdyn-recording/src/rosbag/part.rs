@@ -13,7 +13,7 @@ use trackdyn_core::input;
 const BUFFER_SIZE: usize = 1 << 16;
 
 /// Endings of files that `zstd` packed: those of rosbag2 and of the program itself.
-const PACKED: [&str; 2] = [".zstd", ".zst"];
+const PACKED_ENDINGS: [&str; 2] = [".zstd", ".zst"];
 
 /// Endings of the files of bags. `.bag.active` is a bag whose recorder was stopped early.
 const ENDINGS: [(&str, Storage); 4] = [
@@ -50,7 +50,7 @@ impl Part {
     /// The part that a path names, there or not; none where it has another ending.
     pub(super) fn of(path: &Path) -> Option<Self> {
         let name = path.file_name()?.to_string_lossy();
-        let bare = PACKED.iter().find_map(|ending| name.strip_suffix(ending));
+        let bare = PACKED_ENDINGS.iter().find_map(|ending| name.strip_suffix(ending));
         let storage = ENDINGS.iter().find(|(ending, _)| bare.unwrap_or(&name).ends_with(ending))?.1;
         Some(Self { path: path.to_owned(), storage, is_packed: bare.is_some() })
     }
@@ -72,7 +72,7 @@ impl Part {
     /// This part if it is there, else its packed or unpacked form; the unpacked one is preferred.
     pub(super) fn present(self) -> Option<Self> {
         let bare = self.unpacked_path();
-        let packed = PACKED.iter().map(|ending| {
+        let packed = PACKED_ENDINGS.iter().map(|ending| {
             let mut name = bare.clone().into_os_string();
             name.push(ending);
             PathBuf::from(name)

@@ -251,13 +251,13 @@ mod tests {
     use super::*;
 
     /// A `u32` 7, the text "ab" and the number 1.5, in both byte orders and both alignments.
-    const LITTLE: &[u8] =
+    const LITTLE_ENDIAN: &[u8] =
         &[0, 1, 0, 0, 7, 0, 0, 0, 3, 0, 0, 0, b'a', b'b', 0, 0, 0, 0, 0, 0, 0, 0, 0xf8, 0x3f];
-    const BIG: &[u8] = &[
+    const BIG_ENDIAN: &[u8] = &[
         0, 0, 0, 0, 0, 0, 0, 7, 0, 0, 0, 3, b'a', b'b', 0, 0, 0, 0, 0, 0, 0x3f, 0xf8, 0, 0, 0, 0,
         0, 0,
     ];
-    const COMPACT: &[u8] =
+    const COMPACT_PAYLOAD: &[u8] =
         &[0, 7, 0, 0, 7, 0, 0, 0, 3, 0, 0, 0, b'a', b'b', 0, 0, 0, 0, 0, 0, 0, 0, 0xf8, 0x3f];
 
     fn fields(payload: &[u8]) -> Result<(u32, String, f64), PayloadError> {
@@ -272,12 +272,12 @@ mod tests {
     #[test]
     fn byte_order_and_alignment_follow_the_header() {
         let expected = Ok((7, "ab".to_owned(), 1.5));
-        assert_eq!(fields(COMPACT), expected);
-        let mut little = LITTLE[..16].to_vec();
+        assert_eq!(fields(COMPACT_PAYLOAD), expected);
+        let mut little = LITTLE_ENDIAN[..16].to_vec();
         little.extend([0; 4]);
         little.extend(1.5_f64.to_le_bytes());
         assert_eq!(fields(&little), expected);
-        assert_eq!(fields(BIG), expected);
+        assert_eq!(fields(BIG_ENDIAN), expected);
     }
 
     #[test]
@@ -291,8 +291,8 @@ mod tests {
 
     #[test]
     fn every_cut_is_an_error_and_no_panic() {
-        for end in 0..BIG.len() {
-            assert!(matches!(fields(&BIG[..end]), Err(PayloadError::Short { .. })), "{end}");
+        for end in 0..BIG_ENDIAN.len() {
+            assert!(matches!(fields(&BIG_ENDIAN[..end]), Err(PayloadError::Short { .. })), "{end}");
         }
     }
 

@@ -6,7 +6,7 @@
 
 use super::part::Part;
 use super::ros1_record::{Fields, decompress, nanoseconds, op, split_sized};
-use super::stream::{Dropped, ENDS_EARLY, MAX_SIZE, Stream, without_topic};
+use super::stream::{Dropped, EARLY_END, MAX_SIZE, Stream, without_topic};
 use super::topic::Topic;
 use super::visitor::Visitor;
 use crate::Error;
@@ -81,7 +81,7 @@ impl Reader<'_> {
                     if op == op::CHUNK {
                         self.take_chunk(records.fields(), &records.data, false, &mut content);
                     }
-                    return Ok(Some(ENDS_EARLY.to_owned()));
+                    return Ok(Some(EARLY_END.to_owned()));
                 }
                 Next::Damaged(problem) => return Ok(Some(problem)),
                 Next::End if listed < chunks => {

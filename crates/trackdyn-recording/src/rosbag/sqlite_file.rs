@@ -79,11 +79,11 @@ fn immutable(path: &Path) -> String {
 /// Refuses rows that a database computes instead of holding them: a view, a virtual table or a
 /// generated column may have rows without end, or cells of any size.
 fn require_tables(connection: &Connection) -> Result<(), String> {
-    const COMPUTED: &str = "SELECT name FROM sqlite_schema \
+    const COMPUTED_TABLES: &str = "SELECT name FROM sqlite_schema \
          WHERE lower(name) IN ('topics', 'messages', 'message_definitions') \
          AND type IN ('table', 'view') AND (type = 'view' OR rootpage = 0 OR EXISTS \
          (SELECT 1 FROM pragma_table_xinfo(sqlite_schema.name) WHERE hidden <> 0))";
-    let found = connection.query_row(COMPUTED, [], |row| row.get::<_, String>(0)).optional();
+    let found = connection.query_row(COMPUTED_TABLES, [], |row| row.get::<_, String>(0)).optional();
     match found.map_err(|error| error.to_string())? {
         None => Ok(()),
         Some(name) => Err(format!("the rows of {name} are computed: expected a table of rows")),

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 pub(super) const MAX_SIZE: u64 = 1 << 28;
 
 /// What is wrong with a file whose records end before it says that they do.
-pub(super) const ENDS_EARLY: &str = "it ends early, or is damaged from there on";
+pub(super) const EARLY_END: &str = "it ends early, or is damaged from there on";
 
 /// The content of a file as a stream.
 pub(super) struct Stream {

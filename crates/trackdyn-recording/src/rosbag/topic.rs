@@ -58,12 +58,12 @@ pub(super) enum Layout {
 }
 
 /// What ends the names of topics whose transforms hold at all times, such as `/tf_static`.
-pub(super) const STATIC: &str = "_static";
+pub(super) const STATIC_SUFFIX: &str = "_static";
 
 impl Topic {
     /// Whether it is a topic of transforms that hold at all times.
     pub(super) fn is_static(&self) -> bool {
-        self.layout() == Some(Layout::Transforms) && self.name.ends_with(STATIC)
+        self.layout() == Some(Layout::Transforms) && self.name.ends_with(STATIC_SUFFIX)
     }
 
     /// The start of one of its messages; one of CDR where its encoding is not known.

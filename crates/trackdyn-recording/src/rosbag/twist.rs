@@ -15,10 +15,10 @@ use std::path::Path;
 pub(super) const JOINTS: [&str; 2] = ["left", "right"];
 
 /// Words of topics that say how fast a robot should be.
-const COMMAND: [&str; 6] = ["cmd", "command", "commands", "setpoint", "target", "teleop"];
+const COMMAND_WORDS: [&str; 6] = ["cmd", "command", "commands", "setpoint", "target", "teleop"];
 
 /// Words of topics that say how fast it was, whatever else is in the name, such as `cmd_odom`.
-const MEASURED: [&str; 8] =
+const MEASUREMENT_WORDS: [&str; 8] =
     ["odom", "odometry", "feedback", "measured", "actual", "state", "status", "encoder"];
 
 /// The options by which the speeds of a body are read as joints; others as they are.
@@ -91,7 +91,7 @@ fn has_twist(kind: &str) -> bool {
 pub(super) fn is_command(name: &str) -> bool {
     let words = words(name);
     let has = |some: &[&str]| words.iter().any(|word| some.contains(&word.as_str()));
-    has(&COMMAND) && !has(&MEASURED)
+    has(&COMMAND_WORDS) && !has(&MEASUREMENT_WORDS)
 }
 
 /// What a log without joints has instead, and the options that read it.

@@ -28,7 +28,7 @@ pub(super) const WHEEL: [&str; 19] = [
 ];
 
 /// Words that are written together, as in `frontleftwheel`.
-const JOINED: [&str; 10] =
+const JOINED_WORDS: [&str; 10] =
     ["front", "rear", "back", "middle", "mid", "center", "centre", "left", "right", "joint"];
 
 /// The words of a name in small letters: it is split at all that is no letter, at capitals, and
@@ -61,7 +61,7 @@ pub(super) fn words(name: &str) -> Vec<String> {
 
 /// The words that one is made of; itself where it is not made of known ones.
 fn parted(word: &str) -> Vec<String> {
-    let known = |part: &str| JOINED.contains(&part) || WHEEL.contains(&part);
+    let known = |part: &str| JOINED_WORDS.contains(&part) || WHEEL.contains(&part);
     let is_side =
         |part: &str| LEFT.contains(&part) || RIGHT.contains(&part) || part == "l" || part == "r";
     // Short words of a side stand at an end, before or after a longer word: lwheel, wheelfl.

@@ -1,7 +1,8 @@
 //! Cells as numbers.
 
 /// Words for what was not measured, in small letters.
-const ABSENT: [&str; 10] = ["n/a", "na", "#n/a", "nan", "null", "none", "nil", "-", "--", "?"];
+const ABSENT_WORDS: [&str; 10] =
+    ["n/a", "na", "#n/a", "nan", "null", "none", "nil", "-", "--", "?"];
 
 /// A number as spreadsheets, numpy and C write it; NaN for nothing.
 pub(crate) fn number(text: &[u8]) -> Option<f64> {
@@ -12,7 +13,7 @@ pub(crate) fn number(text: &[u8]) -> Option<f64> {
         return Some(number);
     }
     let word = std::str::from_utf8(text).ok()?.to_ascii_lowercase();
-    ABSENT.contains(&word.as_str()).then_some(f64::NAN)
+    ABSENT_WORDS.contains(&word.as_str()).then_some(f64::NAN)
 }
 
 /// A number as any table has it, with a decimal comma or without.

@@ -3,7 +3,7 @@
 use super::Compared;
 use crate::colour::{FRAME, GRID, INK};
 use crate::figure::{Area, Axis, Estimates, Figure, Legend, Panel, Rule, Swatch};
-use crate::sheet::{self, AFTER, BEFORE, rows};
+use crate::sheet::{self, AFTER_COLOUR, BEFORE_COLOUR, rows};
 use trackdyn_core::real;
 use trackdyn_diagnose::compare::{Estimate, Quantity, Subject, words};
 
@@ -12,7 +12,7 @@ const ROW: i32 = 54;
 const LABELS: i32 = 700;
 const WIDTH: i32 = 1600;
 /// Largest distance that is drawn, typical sizes: beyond it a size is not physical.
-const FARTHEST: f64 = 20.0;
+const MAX_DISTANCE: f64 = 20.0;
 
 /// One row per number; none where nothing was compared.
 pub(super) fn figure(subject: &Compared) -> Option<Figure> {
@@ -31,8 +31,8 @@ pub(super) fn figure(subject: &Compared) -> Option<Figure> {
     let title = "The sizes in each set";
     let mut figure = sheet::sheet("sizes", height, title, explanation, subject.caption);
     let entries = [
-        (Swatch::entry(BEFORE), "SIM"),
-        (Swatch::entry(AFTER), "REAL"),
+        (Swatch::entry(BEFORE_COLOUR), "SIM"),
+        (Swatch::entry(AFTER_COLOUR), "REAL"),
         (Swatch::Line(INK, 3.0), "bars: 95 % intervals"),
     ];
     figure.legends.push(Legend::of_marks([LABELS, sheet::TOP + 20], sheet::RIGHT, entries));
@@ -42,7 +42,7 @@ pub(super) fn figure(subject: &Compared) -> Option<Figure> {
     };
     let ends = all.iter().flat_map(|(_, number)| [away(number, 0), away(number, 1)]).flatten();
     let most = ends.filter(|end| end.is_finite()).map(f64::abs).fold(0.0, f64::max);
-    let limit = if most > 0.0 { 1.05 * most.min(FARTHEST) } else { 1.0 };
+    let limit = if most > 0.0 { 1.05 * most.min(MAX_DISTANCE) } else { 1.0 };
     let place = Area::new(LABELS, TOP, WIDTH, rows(all.len()) * ROW);
     let x = Axis::new("distance from none", "typical sizes", [-limit, limit]);
     let mut panel = Panel::new("", place, x, Axis::rows(all.len()));
@@ -50,7 +50,7 @@ pub(super) fn figure(subject: &Compared) -> Option<Figure> {
         panel.show(Rule::level(real(row), 1.0, GRID));
     }
     panel.show(Rule::upright(0.0, 2.0, FRAME));
-    for (entry, aside) in [(BEFORE, 0.32), (AFTER, 0.68)] {
+    for (entry, aside) in [(BEFORE_COLOUR, 0.32), (AFTER_COLOUR, 0.68)] {
         let estimates = all.iter().enumerate().filter_map(|(row, (_, number))| {
             let [value, low, high] = away(number, entry);
             let are_numbers = [value, low, high].iter().all(|of| of.is_finite());

@@ -194,8 +194,8 @@ fn is(parameter: &Parameter, value: f64) -> String {
 
 /// Names of a few effects, or how many they are.
 pub(super) fn some(effects: &[EffectId]) -> String {
-    const MAX_NAMED: usize = 3;
-    if effects.len() > MAX_NAMED {
+    const MAX_NAMED_EFFECTS: usize = 3;
+    if effects.len() > MAX_NAMED_EFFECTS {
         format!("{} effects", effects.len())
     } else {
         ids(effects, " or ")

@@ -1,7 +1,7 @@
 //! The ICR triple cell by cell of driving.
 
 use super::Subject;
-use super::sheet::{self, AFTER, BEFORE, quantile, rows};
+use super::sheet::{self, AFTER_COLOUR, BEFORE_COLOUR, quantile, rows};
 use crate::colour::{FRAME, GREY, GRID, INK};
 use crate::figure::{
     Area, Axis, Estimates, Figure, Label, Legend, Panel, Rule, Swatch, entry_colour,
@@ -17,7 +17,7 @@ const LABELS: i32 = 600;
 const PANEL: i32 = 530;
 const GAP: i32 = 60;
 /// Half the width of a 95 % interval, in standard deviations.
-const HALF: f64 = 1.96;
+const HALF_INTERVAL: f64 = 1.96;
 /// Names of the triple.
 const NAMES: [&str; 3] =
     ["xₗ, ICR of the left track", "xᵣ, ICR of the right track", "y of both ICRs (forward)"];
@@ -56,8 +56,8 @@ pub(crate) fn drawn([before, after]: &[Vec<Cell>; 2], words: &Words) -> Figure {
                        driving on level ground.";
     let mut figure = sheet::sheet("cells", height, words.title, explanation, words.caption);
     let entries = [
-        (Swatch::entry(BEFORE), words.entries[0]),
-        (Swatch::entry(AFTER), words.entries[1]),
+        (Swatch::entry(BEFORE_COLOUR), words.entries[0]),
+        (Swatch::entry(AFTER_COLOUR), words.entries[1]),
         (Swatch::Line(INK, 3.0), "bars: 95 % intervals"),
     ];
     figure.legends.push(Legend::of_marks([LABELS, sheet::TOP + 20], sheet::RIGHT, entries));
@@ -86,22 +86,22 @@ pub(crate) fn drawn([before, after]: &[Vec<Cell>; 2], words: &Words) -> Figure {
 
 /// One number of the triple, before and after.
 fn panel(cells: &[&[Cell]; 2], k: usize, limit: f64, names: [&str; 2]) -> Panel {
-    let count = cells[BEFORE].len();
+    let count = cells[BEFORE_COLOUR].len();
     let left = LABELS + rows(k) * (PANEL + GAP);
     let place = Area::new(left, TOP, PANEL, rows(count) * ROW);
     let x = Axis::new("departure", "mm", [-limit, limit]);
     let mut panel = Panel::new(NAMES[k], place, x, Axis::rows(count));
-    for (row, pair) in (1..).zip(cells[BEFORE].windows(2)) {
+    for (row, pair) in (1..).zip(cells[BEFORE_COLOUR].windows(2)) {
         let changes = pair[0].manoeuvre != pair[1].manoeuvre;
         let (thickness, colour) = if changes { (2.0, GREY) } else { (1.0, GRID) };
         panel.show(Rule::level(real(row), thickness, colour));
     }
     panel.show(Rule::upright(0.0, 2.0, FRAME));
-    for (entry, aside) in [(BEFORE, 0.32), (AFTER, 0.68)] {
+    for (entry, aside) in [(BEFORE_COLOUR, 0.32), (AFTER_COLOUR, 0.68)] {
         let mut estimates = Vec::new();
         for (row, cell) in cells[entry].iter().enumerate() {
             let (value, deviation) = cell.departure[k];
-            let (value, half) = (1e3 * value, 1e3 * HALF * deviation);
+            let (value, half) = (1e3 * value, 1e3 * HALF_INTERVAL * deviation);
             let row = real(row) + aside;
             if !(value.is_finite() && half.is_finite()) {
                 continue;
@@ -140,7 +140,7 @@ fn limit(all: &[&[Cell]; 2]) -> f64 {
     let usual = quantile(departures().map(|(_, deviation)| deviation), 0.5).unwrap_or(0.0);
     let most = departures()
         .filter(|(_, deviation)| *deviation <= 4.0 * usual)
-        .map(|(value, deviation)| value.abs() + HALF * deviation)
+        .map(|(value, deviation)| value.abs() + HALF_INTERVAL * deviation)
         .fold(0.0, f64::max);
     if most > 0.0 { 1.05e3 * most } else { 1.0 }
 }

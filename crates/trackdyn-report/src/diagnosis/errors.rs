@@ -1,6 +1,6 @@
 //! Errors before and after against the floor of the noise.
 
-use super::sheet::{self, AFTER, BEFORE};
+use super::sheet::{self, AFTER_COLOUR, BEFORE_COLOUR};
 use super::words::CHANNELS;
 use super::{Subject, View};
 use crate::colour::Rgb;
@@ -19,12 +19,12 @@ const FLOOR: Rgb = [120, 120, 120];
 /// Runs that have a place of their own, at most.
 const MAX_RUNS: usize = 40;
 /// Places whose bars have numbers, at most.
-const MAX_NUMBERED: usize = 4;
+const MAX_NUMBERED_PLACES: usize = 4;
 
 /// Places of the groups with and without that of the runs.
-const NARROW: [Area; 3] =
+const NARROW_PLACES: [Area; 3] =
     [Area::new(158, TOP, 500, 480), Area::new(838, TOP, 560, 480), Area::new(1578, TOP, 760, 480)];
-const WIDE: [Area; 2] = [Area::new(158, TOP, 900, 480), Area::new(1238, TOP, 1100, 480)];
+const WIDE_PLACES: [Area; 2] = [Area::new(158, TOP, 900, 480), Area::new(1238, TOP, 1100, 480)];
 
 /// Places with their bars.
 struct Bars {
@@ -44,7 +44,7 @@ pub(super) fn figure(subject: &Subject) -> Figure {
         "Error on what was fitted (nothing was held out)"
     };
     let mut figure = sheet::sheet("errors", HEIGHT, title, explanation, subject.caption);
-    let [before, after] = [BEFORE, AFTER].map(entry_colour);
+    let [before, after] = [BEFORE_COLOUR, AFTER_COLOUR].map(entry_colour);
     let entries = [
         (Swatch::Box(before), "before"),
         (Swatch::Box(after), "after"),
@@ -78,7 +78,8 @@ pub(super) fn figure(subject: &Subject) -> Figure {
             .collect(),
     };
     let runs = runs(subject, [before, after]);
-    let areas = if runs.places.is_empty() { WIDE.as_slice() } else { NARROW.as_slice() };
+    let areas =
+        if runs.places.is_empty() { WIDE_PLACES.as_slice() } else { NARROW_PLACES.as_slice() };
     for (area, bars) in areas.iter().zip([whole, channels, runs]) {
         figure.panels.push(group(*area, &bars, fit.noise_floor));
     }
@@ -129,7 +130,7 @@ fn group(area: Area, bars: &Bars, floor: f64) -> Panel {
             let right = left + 0.94 * width;
             boxes.push([[left, 0.0], [right, value.min(highest)]]);
             colours.push(*colour);
-            if bars.places.len() <= MAX_NUMBERED {
+            if bars.places.len() <= MAX_NUMBERED_PLACES {
                 let style = Style::new(20.0).anchor(Horizontal::Centre, Vertical::Baseline);
                 let at = [f64::midpoint(left, right), value.min(highest)];
                 let text = number(*value, if *value < 10.0 { 3 } else { 1 });
@@ -148,7 +149,7 @@ fn names(bars: &Bars, area: Area) -> Vec<(f64, String)> {
     let count = bars.places.len().max(1);
     let pitch = area.width / sheet::rows(count);
     let widest = bars.places.iter().map(|(name, _)| width(name, TICK_SIZE)).max().unwrap_or(0);
-    let is_crowded = count > MAX_NUMBERED && widest + GAP > pitch;
+    let is_crowded = count > MAX_NUMBERED_PLACES && widest + GAP > pitch;
     let each = if is_crowded { (widest + GAP).div_euclid(pitch.max(1)) + 1 } else { 1 };
     let names = bars.places.iter().enumerate().step_by(each.unsigned_abs() as usize);
     let room = pitch * each - GAP;

@@ -18,7 +18,7 @@ const LABELS: i32 = 400;
 const PANEL: i32 = 900;
 /// Size of numbers and reasons.
 const REASON: f32 = 22.0;
-const LOST: Rgb = [140, 140, 140];
+const LOST_COLOUR: Rgb = [140, 140, 140];
 /// Half the height of a bar, rows.
 const HALF_BAR: f64 = 0.32;
 
@@ -76,7 +76,7 @@ fn colour(outcome: Outcome) -> Rgb {
     match outcome {
         Outcome::Claimed => entry_colour(1),
         Outcome::Twin => entry_colour(5),
-        _ => LOST,
+        _ => LOST_COLOUR,
     }
 }
 

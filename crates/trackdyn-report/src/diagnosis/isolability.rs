@@ -18,22 +18,22 @@ const TOP: i32 = sheet::TOP + 90;
 const CELL: i32 = 50;
 const LABELS: i32 = 400;
 /// Room for names that read upwards.
-const BELOW: i32 = 400;
+const ROOM_BELOW: i32 = 400;
 /// Longest bar, pixels.
 const MAX_BAR: i32 = 640;
 /// Size of names and remarks.
 const NAME: f32 = 22.0;
 /// Resemblance from which on its number is written.
-const MIN_WRITTEN: f64 = 0.5;
+const MIN_WRITTEN_RESEMBLANCE: f64 = 0.5;
 /// Standard deviations, at a typical size, below which an effect only moves what is fitted anyway.
-const MIN_VISIBLE: f64 = 0.05;
+const MIN_VISIBLE_Z: f64 = 0.05;
 
 /// The matrix of |cosine| and what each effect would stand out by.
 pub(super) fn figure(subject: &Subject) -> Figure {
     let of = &subject.diagnosis.limits.resemblance;
     let order = order(of);
     let side = rows(order.len()) * CELL;
-    let height = TOP + side.max(500) + BELOW + sheet::FOOT;
+    let height = TOP + side.max(500) + ROOM_BELOW + sheet::FOOT;
     let explanation = "Resemblance of what two effects would change in this very evidence, with \
                        all that is fitted anyway taken out: 100 means twins, 0 means that nothing \
                        is shared. Bars: by how much an effect of typical size would stand out.";
@@ -65,7 +65,7 @@ fn matrix(subject: &Subject, order: &[usize], place: Area) -> Panel {
     let pairs = order.iter().flat_map(|&a| order.iter().map(move |&b| (a, b)));
     let cells = pairs.map(|(a, b)| {
         let cosine = of.cosines[(a, b)];
-        (cosine, (a != b && cosine >= MIN_WRITTEN).then(|| number(100.0 * cosine, 0)))
+        (cosine, (a != b && cosine >= MIN_WRITTEN_RESEMBLANCE).then(|| number(100.0 * cosine, 0)))
     });
     let scale = Scale::new(BLUES, [0.0, 1.0], "|cosine|");
     let bar = Area::new(place.right() + 40, place.top, 28, 400.min(place.height));
@@ -117,7 +117,7 @@ fn name(subject: &Subject, effect: EffectId) -> (String, Rgb) {
 /// most like the last.
 fn order(of: &Isolability) -> Vec<usize> {
     let mut left: Vec<usize> =
-        (0..of.effects.len()).filter(|&k| of.detection[k] > MIN_VISIBLE).collect();
+        (0..of.effects.len()).filter(|&k| of.detection[k] > MIN_VISIBLE_Z).collect();
     let strongest =
         left.iter().copied().max_by(|&a, &b| of.detection[a].total_cmp(&of.detection[b]));
     let Some(mut last) = strongest else { return Vec::new() };

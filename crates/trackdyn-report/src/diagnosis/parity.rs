@@ -1,7 +1,7 @@
 //! The tests of symmetries.
 
 use super::Subject;
-use super::sheet::{self, AFTER, BEFORE, rows};
+use super::sheet::{self, AFTER_COLOUR, BEFORE_COLOUR, rows};
 use super::words::{probability, symmetry};
 use crate::colour::{FRAME, GREY, GRID, INK};
 use crate::figure::{
@@ -19,19 +19,19 @@ const ROW: i32 = 96;
 const LABELS: i32 = 640;
 const PANEL: i32 = 1020;
 /// Places of the states in a row.
-const ASIDE: [f64; 3] = [0.22, 0.5, 0.78];
+const STATE_PLACES: [f64; 3] = [0.22, 0.5, 0.78];
 /// Distance of the columns of p.
 const COLUMN: i32 = 215;
 /// Place among the colours of what is taken as the file has it.
-const FILED: usize = 2;
+const FILED_COLOUR: usize = 2;
 
 /// One row per symmetry: its statistic per degree of freedom.
 pub(super) fn figure(subject: &Subject) -> Figure {
     let Examined { filed, before: fitted, after, .. } = &subject.diagnosis.evidence;
     let states = [
-        (&filed.tests, FILED, "as filed", "p as filed"),
-        (&fitted.tests, BEFORE, "clock and sensor fitted", "p fitted"),
-        (&after.tests, AFTER, "after", "p after"),
+        (&filed.tests, FILED_COLOUR, "as filed", "p as filed"),
+        (&fitted.tests, BEFORE_COLOUR, "clock and sensor fitted", "p fitted"),
+        (&after.tests, AFTER_COLOUR, "after", "p after"),
     ];
     let count = fitted.tests.len().max(1);
     let height = TOP + rows(count) * ROW + 140 + sheet::FOOT;
@@ -85,7 +85,7 @@ pub(super) fn figure(subject: &Subject) -> Figure {
             let (p, at) = (probability(test.test.p), [range[1], real(row) + 0.5]);
             panel.labels.push(Label::right_of(&p, at, beside, style));
             let Some(ratio) = ratio(test) else { continue };
-            let (end, row) = (ratio.max(low).log10(), real(row) + ASIDE[state]);
+            let (end, row) = (ratio.max(low).log10(), real(row) + STATE_PLACES[state]);
             let colour = entry_colour(entry);
             let points = vec![[0.0, row], [end, row]];
             panel.show_as(name, Line { points, thickness: 4.0, colour });

@@ -1,6 +1,6 @@
 //! One run replayed: dead reckoning with the model as filed and as corrected.
 
-use super::sheet::{self, AFTER, BEFORE};
+use super::sheet::{self, AFTER_COLOUR, BEFORE_COLOUR};
 use super::{Subject, View};
 use crate::colour::INK;
 use crate::figure::{Area, Axis, Figure, Legend, Line, Panel, Swatch, around, entry_colour};
@@ -139,7 +139,7 @@ fn drawn(subject: &Subject, replay: &Replay) -> Figure {
     let held_out = if replay.is_held_out { ", held out of the fit" } else { "" };
     let title = format!("Dead reckoning of run {}{held_out}", replay.run);
     let moves = |entry: &usize| !replay.replayed[*entry].is_empty();
-    let stops: Vec<&str> = [BEFORE, AFTER]
+    let stops: Vec<&str> = [BEFORE_COLOUR, AFTER_COLOUR]
         .into_iter()
         .filter(|entry| !moves(entry))
         .map(|entry| NAMES[entry])
@@ -156,7 +156,7 @@ fn drawn(subject: &Subject, replay: &Replay) -> Figure {
     );
     let mut figure = sheet::sheet("path", HEIGHT, &title, &explanation, subject.caption);
     let line = |entry: usize| (Swatch::Line(entry_colour(entry), 5.0), NAMES[entry]);
-    let models = [BEFORE, AFTER].into_iter().filter(moves).map(line);
+    let models = [BEFORE_COLOUR, AFTER_COLOUR].into_iter().filter(moves).map(line);
     let entries = std::iter::once((Swatch::Line(INK, 8.0), "observed"));
     let entries = entries.chain(models).chain([(Swatch::ring(), "start")]);
     figure.legends.push(Legend::of_marks([158, sheet::TOP + 20], sheet::RIGHT, entries));

@@ -21,7 +21,7 @@ const POINT: Rgb = [176, 196, 214];
 /// Radius of a sample, pixels.
 const RADIUS: f64 = 3.0;
 /// Samples that the figure shows at most, and those of a panel: the page carries them all.
-const MAX_SHOWN: [usize; 2] = [8400, 700];
+const MAX_SHOWN_SAMPLES: [usize; 2] = [8400, 700];
 /// Means of about this many groups of samples.
 const GROUPS: f64 = 14.0;
 /// Samples that a group needs.
@@ -54,7 +54,7 @@ pub(super) fn figure(subject: &Subject) -> Figure {
         let text = "No effect of the catalogue changes anything that this evidence can see.";
         figure.write(text, [158, TOP + 40], Style::new(TITLE_SIZE));
     }
-    let most = (MAX_SHOWN[0] / (3 * exposures.len().max(1))).min(MAX_SHOWN[1]);
+    let most = (MAX_SHOWN_SAMPLES[0] / (3 * exposures.len().max(1))).min(MAX_SHOWN_SAMPLES[1]);
     for (row, exposure) in exposures.iter().enumerate() {
         figure.panels.extend(effect(subject, exposure, TOP + rows(row) * ROW, most));
     }
@@ -204,7 +204,7 @@ mod tests {
         // Fibonacci's lattice fills the panel evenly
         let place = |k: i32, step: f64| 2.0 * (f64::from(k) * step).fract() - 1.0;
         let points: Vec<_> = (0..20_000).map(|k| [place(k, 0.618_034), place(k, 5e-5)]).collect();
-        let most = MAX_SHOWN[1];
+        let most = MAX_SHOWN_SAMPLES[1];
         let shown = apart(&points, &panel, most);
         assert!((most / 3..=most).contains(&shown.len()), "{}", shown.len());
         assert!(shown.iter().all(|point| points.contains(point)));

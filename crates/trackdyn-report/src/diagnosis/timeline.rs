@@ -1,7 +1,7 @@
 //! Residuals and track speeds over time.
 
 use super::log::{Entry, Log};
-use super::sheet::{self, AFTER, BEFORE, quantile};
+use super::sheet::{self, AFTER_COLOUR, BEFORE_COLOUR, quantile};
 use super::words::CHANNELS;
 use super::{Subject, View};
 use crate::colour::{FRAME, GREY, GRID};
@@ -24,7 +24,7 @@ const HEIGHT: i32 = TOP + 3 * ROW[1] + ROW[0] + 100 + sheet::FOOT;
 const COLUMNS: usize = 1000;
 
 /// Share of the residuals that are inside the frame.
-const SHOWN: f64 = 0.998;
+const SHOWN_SHARE: f64 = 0.998;
 /// Half the range of residuals at least, σ.
 const MIN_EXTENT: f64 = 4.0;
 /// Colours of the left and the right track among those of entries.
@@ -54,13 +54,13 @@ pub(super) fn figure(subject: &Subject) -> Option<Figure> {
     let entries = [
         (line(TRACKS[0]), NAMES[0][0]),
         (line(TRACKS[1]), NAMES[0][1]),
-        (line(BEFORE), "residual before"),
-        (line(AFTER), "residual after"),
+        (line(BEFORE_COLOUR), "residual before"),
+        (line(AFTER_COLOUR), "residual after"),
     ];
     figure.legends.push(Legend::of_marks([LEFT, sheet::TOP + 20], sheet::RIGHT, entries));
     let fastest = extent(&rows, 0..2, 1.0, 0.0).max(1e-3);
     figure.panels.push(panel(&log, &rows, 0, ["Track speeds", "speed", "m/s"], fastest));
-    let most = extent(&rows, 2..8, SHOWN, MIN_EXTENT);
+    let most = extent(&rows, 2..8, SHOWN_SHARE, MIN_EXTENT);
     for (channel, name) in CHANNELS.iter().enumerate() {
         let title = format!("Residual, {name}");
         figure.panels.push(panel(&log, &rows, 1 + channel, [&title, "residual", "σ"], most));
@@ -113,7 +113,8 @@ fn panel(
         panel.show(Rule::upright(run.at, 2.0, GRID));
     }
     panel.show(Rule::level(0.0, 2.0, FRAME));
-    let (first, colours) = if row == 0 { (0, TRACKS) } else { (2 * row, [BEFORE, AFTER]) };
+    let (first, colours) =
+        if row == 0 { (0, TRACKS) } else { (2 * row, [BEFORE_COLOUR, AFTER_COLOUR]) };
     for (k, colour) in colours.into_iter().enumerate() {
         for points in rows {
             let points: Vec<_> =

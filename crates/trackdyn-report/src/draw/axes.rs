@@ -16,9 +16,9 @@ use std::convert::Infallible;
 use std::ops::Range;
 
 /// Room left of a plot for numbers and label, pixels.
-const LEFT: i32 = 118;
+const ROOM_LEFT: i32 = 118;
 /// Room below a plot for numbers and label, pixels.
-const BELOW: i32 = 84;
+const ROOM_BELOW: i32 = 84;
 /// Least distance of numbers upwards, pixels.
 const SPACING: i32 = 60;
 
@@ -36,11 +36,12 @@ pub(super) fn draw(
     let (x, y) = (Scaled::new(&panel.x, across(panel)), Scaled::new(&panel.y, y));
     let size = [width, height].map(i32::unsigned_abs);
     let root = Brush { paper, size: size.into() }.into_drawing_area();
-    let corner = (left - LEFT, top);
-    let area = root.shrink(corner, (panel.place.width + LEFT, panel.place.height + BELOW));
+    let corner = (left - ROOM_LEFT, top);
+    let area =
+        root.shrink(corner, (panel.place.width + ROOM_LEFT, panel.place.height + ROOM_BELOW));
     let mut chart = ChartBuilder::on(&area)
-        .x_label_area_size(BELOW)
-        .y_label_area_size(LEFT)
+        .x_label_area_size(ROOM_BELOW)
+        .y_label_area_size(ROOM_LEFT)
         .build_cartesian_2d(x, y)?;
     let mut mesh = chart.configure_mesh();
     if !panel.x.has_grid {

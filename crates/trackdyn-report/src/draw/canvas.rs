@@ -2,7 +2,7 @@
 
 use super::paper::Paper;
 use crate::Error;
-use crate::colour::{ColourMap, LAST, Rgb, WHITE};
+use crate::colour::{ColourMap, LAST_INDEX, Rgb, WHITE};
 use crate::figure::{Area, Cell, Hatch, Scale};
 use crate::text::{self, Style};
 
@@ -207,8 +207,8 @@ impl Paper for Canvas {
                         clippy::cast_sign_loss,
                         reason = "a small whole number"
                     )]
-                    let place = (scale.share(value) * f64::from(LAST)).round() as usize;
-                    Ok(colours[place.min(usize::from(LAST))])
+                    let place = (scale.share(value) * f64::from(LAST_INDEX)).round() as usize;
+                    Ok(colours[place.min(usize::from(LAST_INDEX))])
                 }
             })
             .collect();

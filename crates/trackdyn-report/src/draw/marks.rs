@@ -2,7 +2,7 @@
 
 use super::paper::Paper;
 use super::whole;
-use crate::colour::{INK, LAST, Rgb, WHITE};
+use crate::colour::{INK, LAST_INDEX, Rgb, WHITE};
 use crate::figure::{
     Area, Boxes, Cloud, Estimates, Line, Marker, Panel, Points, Rule, Series, Shape, Sign,
 };
@@ -178,7 +178,7 @@ fn boxes(of: &Boxes, panel: &Panel, paper: &mut impl Paper) {
 /// Draws a dot for each point, large values first.
 fn cloud(of: &Cloud, panel: &Panel, paper: &mut impl Paper) {
     let colours = of.scale.colours.table();
-    let level = f64::from(LAST) / (of.scale.range[1] - of.scale.range[0]);
+    let level = f64::from(LAST_INDEX) / (of.scale.range[1] - of.scale.range[0]);
     // Dots of one level on one pixel look alike: one of them will do. Level from above, row and
     // column in one number sort fast.
     let mut dots: Vec<u64> = of
@@ -196,7 +196,7 @@ fn cloud(of: &Cloud, panel: &Panel, paper: &mut impl Paper) {
                 panel.pixel(place).map(|pixel| pixel.round() as u64),
                 ((value - of.scale.range[0]) * level).round() as u8,
             );
-            u64::from(LAST - level.min(LAST)) << 32 | row << 16 | column
+            u64::from(LAST_INDEX - level.min(LAST_INDEX)) << 32 | row << 16 | column
         })
         .collect();
     dots.sort_unstable();
@@ -210,7 +210,7 @@ fn cloud(of: &Cloud, panel: &Panel, paper: &mut impl Paper) {
         let [.., from_above, row_high, row_low, column_high, column_low] = dot.to_be_bytes();
         let place = |high, low| i32::from(u16::from_be_bytes([high, low]));
         let centre = [place(column_high, column_low), place(row_high, row_low)];
-        (centre, colours[usize::from(LAST - from_above)])
+        (centre, colours[usize::from(LAST_INDEX - from_above)])
     });
     paper.dots(radius, dots);
 }

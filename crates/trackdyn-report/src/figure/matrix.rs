@@ -6,7 +6,7 @@ use crate::text::{Horizontal, Style, Vertical};
 use trackdyn_core::real;
 
 /// Share of the scale above which the number in a cell is white.
-const MIN_DARK: f64 = 0.6;
+const MIN_DARK_SHARE: f64 = 0.6;
 
 /// Rows of cells from the upper left corner.
 pub struct Matrix {
@@ -48,7 +48,7 @@ impl Matrix {
             let (row, column) = (k / self.columns.len(), k % self.columns.len());
             boxes.push(Self::cell(row, column));
             values.push(value);
-            let is_dark = self.scale.share(value) > MIN_DARK;
+            let is_dark = self.scale.share(value) > MIN_DARK_SHARE;
             let style = (numbers, if is_dark { WHITE } else { INK });
             let middle = [real(column) + 0.5, real(row) + 0.5];
             panel.labels.extend(text.map(|text| Label::on(&text, middle, style)));

@@ -14,7 +14,7 @@ const MIN_RANGE: f64 = 1e-3;
 const MAX_CONSTANT_RANGE: f64 = 1e-6;
 
 /// What the sign of motions with part of the contact lifted says.
-pub(super) const LIFTED: &str = "part of the contact has lifted";
+pub(super) const LIFTED_MEANING: &str = "part of the contact has lifted";
 
 /// The sign of a motion with part of the contact lifted, in a cell of this side (pixels): seen on
 /// dark and on bright colours.
@@ -45,7 +45,7 @@ pub(super) fn heat_map(map: &IcrMap, coordinate: usize, [left, top]: [i32; 2]) -
         map.lifted().map(|motion| [motion.track_speed.left, motion.track_speed.right]).collect();
     if !lifted.is_empty() {
         let cell = f64::from(SIDE) / real(map.grid.points());
-        panel.show_as(LIFTED, Points::new(lifted, lifted_sign(cell)));
+        panel.show_as(LIFTED_MEANING, Points::new(lifted, lifted_sign(cell)));
     }
     if extremes.is_some() {
         let place = Area::new(place.right() + 18, top, 28, SIDE);
@@ -76,13 +76,15 @@ fn range([low, high]: [f64; 2]) -> [f64; 2] {
 
 /// The pattern of motions that are not turns.
 pub(super) const fn gap(status: Status) -> Hatch {
-    const PALE: Rgb = [222, 222, 222];
-    const DARK: Rgb = [120, 120, 120];
+    const PALE_GREY: Rgb = [222, 222, 222];
+    const DARK_GREY: Rgb = [120, 120, 120];
     const RED: Rgb = [200, 30, 45];
     match status {
-        Status::Turning | Status::Straight => Hatch { paper: PALE, ink: DARK, directions: 0 },
-        Status::Holds(_) => Hatch { paper: PALE, ink: DARK, directions: 1 },
-        Status::Tips => Hatch { paper: WHITE, ink: DARK, directions: 2 },
+        Status::Turning | Status::Straight => {
+            Hatch { paper: PALE_GREY, ink: DARK_GREY, directions: 0 }
+        }
+        Status::Holds(_) => Hatch { paper: PALE_GREY, ink: DARK_GREY, directions: 1 },
+        Status::Tips => Hatch { paper: WHITE, ink: DARK_GREY, directions: 2 },
         Status::NotConverged => Hatch { paper: RED, ink: RED, directions: 0 },
     }
 }

@@ -12,7 +12,7 @@ const SIZE: f32 = 25.0;
 /// Distance between lines, pixels.
 const LINE: i32 = 35;
 /// Distance between tables beyond that, pixels.
-const BETWEEN: i32 = 12;
+const TABLE_DISTANCE: i32 = 12;
 /// Width and height of a sample of colour, pixels.
 const SWATCH: [i32; 2] = [46, 26];
 /// Distance from the beginning of a line to its text, pixels.
@@ -100,7 +100,7 @@ fn counts(panel: &mut Panel, area: Area, first: i32, map: &IcrMap) -> (Vec<Panel
     if lifted > 0 {
         let at = [area.left + SWATCH[0] / 2, row].map(f64::from);
         panel.show(Points::new(vec![at], heat_map::lifted_sign(f64::from(SWATCH[1]))));
-        entry(panel, heat_map::LIFTED, [area.left, row]);
+        entry(panel, heat_map::LIFTED_MEANING, [area.left, row]);
         write(panel, &lifted.to_string(), [area.right(), row], INK);
         row += LINE;
     }
@@ -129,7 +129,7 @@ fn table(panel: &mut Panel, area: Area, first: i32, statistics: &Statistics) {
             row += LINE;
             line(row, name, values.clone(), INK);
         }
-        row += LINE + BETWEEN;
+        row += LINE + TABLE_DISTANCE;
     };
     let (mean, spread) = (statistics.mean.to_array(), statistics.spread.to_array());
     let of_icr = |k: usize| {

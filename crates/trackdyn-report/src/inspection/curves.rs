@@ -10,9 +10,9 @@ use trackdyn_estimate::Rate;
 const MAX_INTERVAL: f64 = 5.0;
 
 /// Share of the values that an axis shows in any case.
-const SHOWN: f64 = 0.99;
+const SHOWN_SHARE: f64 = 0.99;
 
-/// Values beyond this many times the quantile of [`SHOWN`] would flatten all others.
+/// Values beyond this many times the quantile of [`SHOWN_SHARE`] would flatten all others.
 const MAX_RATIO: f64 = 4.0;
 
 /// Range of the values that are shown, and what lies beyond.
@@ -28,7 +28,7 @@ impl Limits {
         let values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
         let largest = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
-        let usual = quantile(&mut sizes, SHOWN).unwrap_or(0.0);
+        let usual = quantile(&mut sizes, SHOWN_SHARE).unwrap_or(0.0);
         let limit = if usual > 0.0 && largest > MAX_RATIO * usual {
             MAX_RATIO / 2.0 * usual
         } else {

@@ -6,7 +6,7 @@ use trackdyn_core::real;
 use trackdyn_estimate::RunRates;
 
 /// Least distance of two texts below the axis, pixels.
-const APART: f64 = 150.0;
+const MIN_TEXT_DISTANCE: f64 = 150.0;
 
 /// Runs above which the lines between them would hide what is shown.
 const MAX_LINES: usize = 40;
@@ -65,7 +65,7 @@ impl Timeline {
     }
 
     fn ticks(&self) -> Vec<(f64, String)> {
-        let apart = APART * self.column();
+        let apart = MIN_TEXT_DISTANCE * self.column();
         let within = Ticks::along([0.0, self.length], self.width, 150).step;
         let mut ticks: Vec<(f64, String)> = Vec::new();
         for ((start, number), duration) in
@@ -115,7 +115,7 @@ mod tests {
         assert!(many.is_crowded());
         let ticks = many.ticks();
         assert!((8..=14).contains(&ticks.len()), "{ticks:?}");
-        let apart = APART * many.column();
+        let apart = MIN_TEXT_DISTANCE * many.column();
         assert!(ticks.windows(2).all(|pair| pair[1].0 - pair[0].0 >= apart));
     }
 

@@ -8,7 +8,7 @@ use trackdyn_core::real;
 use trackdyn_estimate::odometry::Comparison;
 
 /// Share of its place that a group of bars fills.
-const FILLED: f64 = 0.8;
+const FILLED_SHARE: f64 = 0.8;
 
 /// A group of bars, one per parameter set, for each quantity; these share their unit.
 pub(super) fn panel(place: Area, result: &Comparison, quantities: &[Quantity]) -> Option<Panel> {
@@ -32,14 +32,14 @@ pub(super) fn panel(place: Area, result: &Comparison, quantities: &[Quantity]) -
         panel.title = format!("rms over {} segments of {duration} s", segments.count);
     }
     for (k, (quantity, bars)) in quantities.iter().zip(&bars).enumerate() {
-        group(&mut panel, quantity.name, real(k) + 0.5 - FILLED / 2.0, bars);
+        group(&mut panel, quantity.name, real(k) + 0.5 - FILLED_SHARE / 2.0, bars);
     }
     Some(panel)
 }
 
 /// The bars of one quantity from their left end on; values with half widths of their intervals.
 fn group(panel: &mut Panel, name: &str, left: f64, bars: &[(f64, f64)]) {
-    let width = FILLED / real(bars.len());
+    let width = FILLED_SHARE / real(bars.len());
     let at = |set: usize, share: f64| left + width * (real(set) + share);
     let boxes = bars.iter().enumerate();
     let boxes = boxes.map(|(set, (value, _))| [[at(set, 0.08), 0.0], [at(set, 0.92), *value]]);

@@ -8,7 +8,7 @@ use trackdyn_estimate::odometry::{Comparison, Span};
 
 /// Distance between neighbouring parameter sets at one length, pixels, where there are few:
 /// whiskers that lie on each other cannot be read.
-const APART: f64 = 9.0;
+const SET_DISTANCE: f64 = 9.0;
 
 /// Distance between the first and the last of many, pixels.
 const WIDTH: f64 = 36.0;
@@ -55,5 +55,5 @@ pub(super) fn panel(place: Area, result: &Comparison, quantity: &Quantity) -> Pa
 /// How far aside of its length a parameter set stands, pixels.
 fn aside(set: usize, sets: usize) -> f64 {
     let last = real(sets - 1);
-    (real(set) - last / 2.0) * APART.min(WIDTH / last.max(1.0))
+    (real(set) - last / 2.0) * SET_DISTANCE.min(WIDTH / last.max(1.0))
 }

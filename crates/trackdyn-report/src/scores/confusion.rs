@@ -19,7 +19,7 @@ const LABELS: i32 = 545;
 /// Size and longest name of a row or column, and room around names of columns for the axis label.
 const NAME: f32 = 22.0;
 const MAX_NAME: i32 = 310;
-const BELOW: i32 = 90;
+const ROOM_BELOW: i32 = 90;
 /// Largest side of a cell, and room right of the cells.
 const CELL: i32 = 64;
 const RIGHT: i32 = 260;
@@ -46,7 +46,7 @@ pub fn confusion(matrix: &Matrix, program: &str, caption: &str) -> Figure {
     let cell = CELL.min((sheet::RIGHT - LABELS - RIGHT) / across);
     let area = Area::new(LABELS, TOP, cell * across, cell * down);
     let widths = matrix.columns.iter().map(|name| width(name, NAME).min(MAX_NAME));
-    let below = BELOW + widths.max().unwrap_or(0);
+    let below = ROOM_BELOW + widths.max().unwrap_or(0);
     let height = area.bottom().max(TOP + 300) + below + sheet::FOOT;
     let title = format!("What {program} took for what");
     let explanation = "Each row is what was concealed, each column what was said; the number is \

@@ -16,10 +16,10 @@ const PLOTS: [Area; 4] = [
     Area::new(1390, 1010, 930, 460),
 ];
 /// Room above shares of one, in which the numbers of cases stand.
-const ABOVE: f64 = 0.14;
+const ROOM_ABOVE: f64 = 0.14;
 /// Room below shares of zero, for markers.
-const BELOW: f64 = 0.06;
-const SMALL: f32 = 20.0;
+const ROOM_BELOW: f64 = 0.06;
+const SMALL_TEXT: f32 = 20.0;
 
 /// Shares of the cases within limits of z.
 #[derive(Clone, Debug)]
@@ -61,7 +61,7 @@ fn panel(of: &Power, place: Area) -> Panel {
     };
     let ticks = of.limits.iter().enumerate().map(|(k, limit)| (real(k), shown(*limit)));
     let x = Axis::new(of.z, "standard deviations of the noise", [0.0, real(bins.max(1))]);
-    let y = Axis::new("share of cases", "", [-BELOW, 1.0 + ABOVE]);
+    let y = Axis::new("share of cases", "", [-ROOM_BELOW, 1.0 + ROOM_ABOVE]);
     let mut panel = Panel::new(of.title, place, x.at(ticks.collect()), y);
     let (z, meaning) = of.mark;
     if let Some(x) = position(of.limits, z) {
@@ -70,8 +70,8 @@ fn panel(of: &Power, place: Area) -> Panel {
     }
     for bin in 0..bins {
         if let Some(cases) = cases(of, bin) {
-            let at = [real(bin) + 0.5, 1.0 + ABOVE / 2.0];
-            panel.labels.push(Label::on(&cases, at, (SMALL, GREY)).on_white());
+            let at = [real(bin) + 0.5, 1.0 + ROOM_ABOVE / 2.0];
+            panel.labels.push(Label::on(&cases, at, (SMALL_TEXT, GREY)).on_white());
         }
     }
     for (entry, entrant) in of.entrants.iter().enumerate() {

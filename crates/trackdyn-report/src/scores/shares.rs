@@ -14,7 +14,7 @@ const LABELS: [i32; 2] = [300, 1010];
 const COUNTS: i32 = 240;
 /// Height of a row, and what each further program adds.
 const ROW: [i32; 2] = [44, 36];
-const BELOW: i32 = 120;
+const ROOM_BELOW: i32 = 120;
 
 /// Shares of what stands in the rows.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +41,7 @@ pub fn shares(of: &Shares, caption: &str) -> Figure {
     let labels = (sheet::LEFT + longest + 40).clamp(LABELS[0], LABELS[1]);
     let plot_width = sheet::RIGHT - COUNTS - labels;
     let place = Area::new(labels, TOP, plot_width, pitch * rows(of.rows.len().max(1)));
-    let height = place.bottom() + BELOW + sheet::FOOT;
+    let height = place.bottom() + ROOM_BELOW + sheet::FOOT;
     let mut figure = sheet::sheet("shares", height, of.title, of.explanation, caption);
     figure.legends.push(legend(of.entrants.iter().map(|entrant| entrant.name)));
     let ticks = [0.0, 20.0, 40.0, 60.0, 80.0, 100.0].map(|tick| (tick, number(tick, 0)));

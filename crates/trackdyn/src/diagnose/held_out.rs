@@ -51,7 +51,7 @@ impl HeldOut {
 
 /// Fewest runs of which some are held out unless the caller says otherwise: of fewer, none can be
 /// spared.
-const FEWEST: usize = 8;
+const MIN_RUNS_TO_HOLD_OUT: usize = 8;
 
 /// The rule by which runs are held out unless the caller says otherwise: indices of every fourth of
 /// so many runs, or points of a table, where there are eight or more.
@@ -61,5 +61,5 @@ const FEWEST: usize = 8;
 /// assert!(trackdyn::diagnose::every_fourth(7).is_empty());
 /// ```
 pub fn every_fourth(runs: usize) -> Vec<usize> {
-    if runs < FEWEST { Vec::new() } else { (3..runs).step_by(4).collect() }
+    if runs < MIN_RUNS_TO_HOLD_OUT { Vec::new() } else { (3..runs).step_by(4).collect() }
 }

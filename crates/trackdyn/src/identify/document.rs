@@ -1,6 +1,7 @@
 //! The result of an identification as a file, schema `trackdyn.identification/1`.
 
 use super::{FILES, MotionFit};
+use crate::Provenance;
 use crate::document::{ClockTable, GyroscopeTable, Rounded, to_toml};
 use serde::Serialize;
 use trackdyn_estimate::Interval;
@@ -105,8 +106,15 @@ struct EstimateTable {
     high95: Option<Rounded>,
 }
 
+impl MotionFit {
+    /// The text of `identification.toml` (schema `trackdyn.identification/1`).
+    pub fn to_toml(&self, provenance: &Provenance) -> String {
+        text(self, &self.sourced.source(provenance))
+    }
+}
+
 /// The text of `identification.toml`; `source` is that of the kinematics files.
-pub(super) fn text(identified: &MotionFit, source: &Source) -> String {
+fn text(identified: &MotionFit, source: &Source) -> String {
     let (found, gauge) = (&identified.found, identified.gauge());
     let mut method = vec![of_spin_test(&found.spin_test, gauge)];
     for (fit, file) in found.fits.iter().zip(FILES) {

@@ -1,6 +1,5 @@
 //! What a recording of motion says of the kinematic parameters.
 
-use super::document;
 use super::gyroscope::GyroscopeUse;
 use super::sourced::{Fitted, Sourced};
 use crate::{Gauge, Provenance};
@@ -41,11 +40,6 @@ impl MotionFit {
     /// The robot, as the recording calls it.
     pub fn robot(&self) -> &str {
         &self.robot
-    }
-
-    /// The text of `identification.toml` (schema `trackdyn.identification/1`).
-    pub fn to_toml(&self, provenance: &Provenance) -> String {
-        document::text(self, &self.sourced.source(provenance))
     }
 
     pub(super) fn vehicle_fingerprint(&self) -> &str {

@@ -8,7 +8,7 @@ use trackdyn_estimate::Contradiction;
 use trackdyn_recording::rosbag::{self, Role};
 
 /// Most sources of poses that are tried: each takes as long as reading the bag.
-const MAX_TRIED: usize = 4;
+const MAX_TRIED_SOURCES: usize = 4;
 
 /// What comes of trying.
 pub(super) enum Choice {
@@ -37,7 +37,7 @@ pub(super) fn of(
         _ if joints.is_some() => vec![base],
         _ => return Choice::None,
     };
-    if tries.len() > MAX_TRIED {
+    if tries.len() > MAX_TRIED_SOURCES {
         return Choice::Several(tries);
     }
     let tried = tries.iter().filter_map(|options| read(path, options, &seen.suggested).ok());

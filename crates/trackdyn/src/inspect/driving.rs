@@ -9,10 +9,10 @@ use trackdyn_estimate::{Clock, Error, Observations, SegmentOptions, Separation};
 use trackdyn_recording::{Recording as Motion, Run, TrackSample};
 
 /// Share of the top speed below which a track stands.
-const MAX_STANDING: f64 = 0.01;
+const MAX_STANDING_SPEED: f64 = 0.01;
 
 /// Difference of the track speeds, in their sum, up to which driving is straight.
-const MAX_STRAIGHT: f64 = 0.1;
+const MAX_STRAIGHT_DIFFERENCE: f64 = 0.1;
 
 /// Slower track in the faster one, from which on tracks that run against each other spin the robot
 /// on the spot.
@@ -156,7 +156,7 @@ impl Driving {
             let (way, more) = (f64::midpoint(left, right).abs(), right - left);
             let larger = left.abs().max(right.abs());
             self.distance += way;
-            if more.abs() <= MAX_STRAIGHT * 2.0 * way {
+            if more.abs() <= MAX_STRAIGHT_DIFFERENCE * 2.0 * way {
                 self.straight += way;
                 continue;
             }
@@ -185,6 +185,6 @@ fn largest(reading: &TrackSample) -> f64 {
 /// Time in which both tracks stand, s; of readings at usual intervals.
 fn standing(tracks: &[TrackSample], fastest: f64) -> f64 {
     let usual = usual_interval(tracks.iter().map(|reading| reading.t));
-    let still = tracks.iter().filter(|reading| largest(reading) <= MAX_STANDING * fastest);
+    let still = tracks.iter().filter(|reading| largest(reading) <= MAX_STANDING_SPEED * fastest);
     usual * real(still.count())
 }

@@ -64,14 +64,14 @@ pub(super) fn of_warnings(warnings: &[Warning]) -> (Vec<String>, Vec<Finding>) {
 }
 
 /// Least turning of the poses, rad, that tracks have to show.
-const MIN_TURNED: f64 = TAU;
+const MIN_TURN: f64 = TAU;
 
 /// Least part of it that they show.
-const MIN_SHOWN: f64 = 0.1;
+const MIN_SHOWN_SHARE: f64 = 0.1;
 
 /// Poses that turn where the tracks say hardly any turning.
 pub(super) fn of_turning(driving: &Driving) -> Option<Finding> {
     let turned = driving.turned_by_poses;
     let shown = driving.turned.left + driving.turned.right;
-    (turned >= MIN_TURNED && shown < MIN_SHOWN * turned).then_some(Finding::Turning(turned))
+    (turned >= MIN_TURN && shown < MIN_SHOWN_SHARE * turned).then_some(Finding::Turning(turned))
 }

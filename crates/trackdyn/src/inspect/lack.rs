@@ -11,13 +11,13 @@ use trackdyn_recording::Recording as Motion;
 use trackdyn_recording::rosbag::{Role, TopicSummary};
 
 /// Turning on the spot, each way, rad: the spin test needs half a turn in all.
-const MIN_SPUN: f64 = TAU;
+const MIN_SPIN: f64 = TAU;
 
 /// Turning of any kind, each way, rad.
-const MIN_TURNED: f64 = TAU;
+const MIN_TURN: f64 = TAU;
 
 /// Straight driving, m.
-const MIN_STRAIGHT: f64 = 5.0;
+const MIN_STRAIGHT_WAY: f64 = 5.0;
 
 /// Time in all, s.
 const MIN_DURATION: f64 = 60.0;
@@ -137,9 +137,9 @@ pub(super) fn of_driving(motion: &Motion, driving: &Driving, speed_unit: f64) ->
     let lacks = [
         (!is_known, Lack::WheelRadius { about }),
         (!driving.has_positions, Lack::Positions),
-        (shows && !both(&driving.turned, MIN_TURNED), Lack::Turning(driving.turned)),
-        (shows && !both(&driving.spun, MIN_SPUN), Lack::Spins(driving.spun)),
-        (driving.has_positions && straight < MIN_STRAIGHT, Lack::Straight(straight)),
+        (shows && !both(&driving.turned, MIN_TURN), Lack::Turning(driving.turned)),
+        (shows && !both(&driving.spun, MIN_SPIN), Lack::Spins(driving.spun)),
+        (driving.has_positions && straight < MIN_STRAIGHT_WAY, Lack::Straight(straight)),
         (motion.stated_noise().is_none() && !driving.has_noise, Lack::Noise),
         (driving.duration < MIN_DURATION, Lack::Duration(driving.duration)),
     ];

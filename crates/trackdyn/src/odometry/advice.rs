@@ -17,9 +17,9 @@ pub struct Compared {
 
 /// Which parameters to take.
 ///
-/// A set with more parameters is taken where it is surely better than those with fewer: where the
-/// 95 % interval of the ratio of the errors of place lies below one; or that of the errors of yaw,
-/// while it is not sure that those of place are larger. Errors are over the span of
+/// A set with more parameters is taken only if it is surely better than those with fewer. Either
+/// the 95 % interval of the ratio of position errors lies below one. Or that of the yaw errors
+/// does, and the position errors are not surely larger. Errors are over the span of
 /// [the drift](trackdyn_estimate::odometry::Comparison::drift).
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -75,7 +75,7 @@ pub(super) fn of(odometry: &Odometry) -> Advice {
     }
     let is_fitted = |one: &&Replayed| !odometry.is_held_out(one.parameters.source());
     let files = odometry.replayed.iter().filter(is_fitted).map(Replayed::name);
-    let physics = odometry.is_physics_fitted_to_it().then_some(ParameterSet::PHYSICS);
+    let physics = odometry.is_physics_fitted_to_it().then_some(ParameterSet::PHYSICS_NAME);
     let fitted: Vec<&str> = files.chain(physics).collect();
     if !fitted.is_empty() {
         return undecided(format!(
@@ -149,8 +149,8 @@ impl Advice {
     pub fn choice(&self) -> Option<&str> {
         match self {
             Self::File { file, .. } => Some(file),
-            Self::Physics { .. } => Some(ParameterSet::PHYSICS),
-            Self::Ideal { .. } => Some(ParameterSet::IDEAL),
+            Self::Physics { .. } => Some(ParameterSet::PHYSICS_NAME),
+            Self::Ideal { .. } => Some(ParameterSet::IDEAL_NAME),
             Self::Undecided { .. } => None,
         }
     }

@@ -22,7 +22,7 @@ pub(super) fn names<'a>(paths: impl Iterator<Item = &'a Path>) -> Vec<String> {
         let name =
             if alike && !folder.is_empty() { format!("{folder}-{stem}") } else { stem.clone() };
         let taken = |name: &str| {
-            [ParameterSet::IDEAL, ParameterSet::PHYSICS, "recorded"].contains(&name)
+            [ParameterSet::IDEAL_NAME, ParameterSet::PHYSICS_NAME, "recorded"].contains(&name)
                 || name.ends_with("-no-alpha")
                 || names.iter().any(|n| n == name)
         };

@@ -22,7 +22,7 @@ pub const PLACEBOS: usize = 20;
 
 /// A size that a roboticist may meet: of a change of an ICR, m, and of a speed or yaw rate, m/s or
 /// rad/s.
-const TYPICAL: [f64; 2] = [0.03, 0.02];
+const TYPICAL_SIZES: [f64; 2] = [0.03, 0.02];
 
 /// Whitened columns of a family of candidates on one recording.
 pub struct Library {
@@ -120,10 +120,10 @@ fn placebo(
         .map(|(index, sample)| {
             let value = smooth.at(sample);
             match changes {
-                icr @ 0..3 => icrs[icr][index] * (TYPICAL[0] * value),
+                icr @ 0..3 => icrs[icr][index] * (TYPICAL_SIZES[0] * value),
                 channel => {
                     let unit = |k: usize, _| if k == channel - 3 { 1.0 } else { 0.0 };
-                    Vector3::from_fn(unit) * (TYPICAL[1] * value * sample.duration)
+                    Vector3::from_fn(unit) * (TYPICAL_SIZES[1] * value * sample.duration)
                 }
             }
         })

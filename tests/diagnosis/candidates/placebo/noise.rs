@@ -25,7 +25,7 @@ impl Noise {
     /// A residual per sample.
     pub fn draw(self, evidence: &Evidence, seed: u64) -> Vec<Vector3<f64>> {
         /// Part of a slip that is left after a segment.
-        const KEPT: f64 = 0.8;
+        const KEPT_SHARE: f64 = 0.8;
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         random.set_stream(self as u64);
         let sizes: Vec<f64> =
@@ -47,7 +47,7 @@ impl Noise {
                     Self::Coloured => {
                         let kick = white();
                         slip = if sample.run == run {
-                            slip * KEPT + kick * (1.0 - KEPT * KEPT).sqrt()
+                            slip * KEPT_SHARE + kick * (1.0 - KEPT_SHARE * KEPT_SHARE).sqrt()
                         } else {
                             kick
                         };

@@ -14,7 +14,7 @@ pub const QUANTITIES: [&str; 7] = [
 ];
 
 /// Place of the relative error of the position over 1 m among the quantities.
-pub const RELATIVE: usize = 3;
+pub const RELATIVE_POSITION: usize = 3;
 
 /// Place of the relative error of the yaw over 1 m.
 pub const RELATIVE_YAW: usize = 4;

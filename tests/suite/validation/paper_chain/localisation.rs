@@ -7,7 +7,7 @@
 
 use super::ALPHA;
 use super::errors::root_mean_square;
-use super::models::{GAUGE, WITH_ALPHA};
+use super::models::{FIT_WITH_ALPHA, GAUGE};
 use super::robot::{auriga, crawling_auriga, driven_icrs};
 use super::scans::Drive;
 use rayon::prelude::*;
@@ -100,7 +100,7 @@ fn check_parameters(
     tolerance: impl Fn(usize, f64) -> f64,
 ) {
     let (recording, found) = identified(drives, localised);
-    let estimate = found.fits[WITH_ALPHA].least_squares.as_ref().expect("determined");
+    let estimate = found.fits[FIT_WITH_ALPHA].least_squares.as_ref().expect("determined");
     let driven = driven_icrs(model, &recording);
     let truth = [driven.x_left, driven.x_right, driven.y, ALPHA.left, ALPHA.right];
     println!("clock offset {:.4} s, whitened rms {:.2}", found.clock.tau(), estimate.whitened_rms);

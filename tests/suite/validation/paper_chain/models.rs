@@ -37,9 +37,9 @@ pub const ORDER: [(usize, usize); 11] =
 pub const ORDER_OF_YAW: [(usize, usize); 6] = [(1, 0), (6, 5), (6, 1), (7, 2), (8, 3), (9, 4)];
 
 /// Places of the fits.
-const WITHOUT_ALPHA: usize = 0;
+const FIT_WITHOUT_ALPHA: usize = 0;
 /// The fit with α.
-pub const WITH_ALPHA: usize = 1;
+pub const FIT_WITH_ALPHA: usize = 1;
 
 /// What the training paths say.
 pub struct Trained {
@@ -56,11 +56,11 @@ impl Trained {
         let genetic = GeneticOptions { seed, ..GeneticOptions::default() };
         let options = Options { genetic, ..Options::new(GAUGE) };
         let found = identify(recording, &options, &|_| ()).expect("enough segments");
-        let alpha = least_squares(&found, WITH_ALPHA).parameters.kinematics().alpha;
+        let alpha = least_squares(&found, FIT_WITH_ALPHA).parameters.kinematics().alpha;
         let one = PerSide::new(1.0, 1.0);
         let map = Kinematics::new(map_statistics(&auriga_without_alpha()).mean);
-        let models =
-            [(WITHOUT_ALPHA, one), (WITH_ALPHA, alpha)].into_iter().flat_map(|(fit, alpha)| {
+        let models = [(FIT_WITHOUT_ALPHA, one), (FIT_WITH_ALPHA, alpha)].into_iter().flat_map(
+            |(fit, alpha)| {
                 [
                     Kinematics { alpha, ..Kinematics::ideal(GAUGE) },
                     symmetric(spins, found.clock.tau(), alpha),
@@ -68,7 +68,8 @@ impl Trained {
                     found.fits[fit].genetic.parameters.kinematics(),
                     least_squares(&found, fit).parameters.kinematics(),
                 ]
-            });
+            },
+        );
         let sets =
             NAMES.into_iter().zip(models).map(|(name, model)| ParameterSet::new(name, model));
         Self { sets: sets.collect(), found }

@@ -250,8 +250,8 @@ fn a_size_shows_by_the_z_that_is_stated() {
 #[test]
 #[ignore = "eleven minutes: .ci/nightly runs it"]
 fn sizes_of_many_laws_show_by_the_z_that_is_stated() {
-    const SLIP_SPEED: [&str; 3] = ["stribeck-friction", "viscous-friction", "friction-creep"];
-    const OTHERS: [&str; 7] = [
+    const SLIP_SPEED_LAWS: [&str; 3] = ["stribeck-friction", "viscous-friction", "friction-creep"];
+    const OTHER_LAWS: [&str; 7] = [
         "load-transfer",
         "shear-displacement",
         "belt-slip",
@@ -261,8 +261,9 @@ fn sizes_of_many_laws_show_by_the_z_that_is_stated() {
         "drive-backlash",
     ];
     let as_wanted = [21, 24].map(|seed| {
-        let weak = SLIP_SPEED.into_iter().chain(OTHERS).flat_map(|id| [(id, 3.0), (id, 10.0)]);
-        let strong = SLIP_SPEED.into_iter().flat_map(|id| [(id, 20.0), (id, 50.0)]);
+        let weak =
+            SLIP_SPEED_LAWS.into_iter().chain(OTHER_LAWS).flat_map(|id| [(id, 3.0), (id, 10.0)]);
+        let strong = SLIP_SPEED_LAWS.into_iter().flat_map(|id| [(id, 20.0), (id, 50.0)]);
         sizes_show_as_stated(seed, weak.chain(strong))
     });
     // the least soil can be shows more on sensitive robots, and laws of the slip speed saturate on

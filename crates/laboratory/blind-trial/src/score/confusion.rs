@@ -4,10 +4,10 @@ use super::verdict::Judged;
 use crate::diagnosis::Status;
 use std::collections::{BTreeMap, BTreeSet};
 
-const NOTHING: &str = "(nothing)";
-const BOTH: &str = "(both)";
-const SET_WITH_IT: &str = "(set with it)";
-const UNEXPLAINED: &str = "(unexplained)";
+const NO_NAME: &str = "(nothing)";
+const BOTH_NAMES: &str = "(both)";
+const SET_WITH_TRUTH: &str = "(set with it)";
+const NO_EXPLANATION: &str = "(unexplained)";
 
 /// What a case conceals, in the order of rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -29,7 +29,7 @@ struct Truth {
 impl Truth {
     fn of(case: &Judged) -> Self {
         let (kind, name) = match case.answer.concealed.as_slice() {
-            [] => (Kind::Nothing, NOTHING.to_owned()),
+            [] => (Kind::Nothing, NO_NAME.to_owned()),
             [only] if !only.in_catalogue => {
                 (Kind::Outside, format!("{} (outside)", only.mechanism))
             }
@@ -45,11 +45,11 @@ impl Truth {
     /// What is right to say of it, where the recording shows it.
     fn answer(&self) -> &str {
         match self.kind {
-            Kind::Nothing => NOTHING,
+            Kind::Nothing => NO_NAME,
             Kind::Effect => &self.name,
-            Kind::Constants => SET_WITH_IT,
-            Kind::Pair => BOTH,
-            Kind::Outside => UNEXPLAINED,
+            Kind::Constants => SET_WITH_TRUTH,
+            Kind::Pair => BOTH_NAMES,
+            Kind::Outside => NO_EXPLANATION,
         }
     }
 }
@@ -102,15 +102,15 @@ fn said(case: &Judged) -> String {
         case.answer.concealed.iter().map(|concealed| concealed.mechanism.as_str()).collect();
     let physics = case.physics();
     match physics.as_slice() {
-        [] if diagnosis.status == Status::Unexplained => UNEXPLAINED.to_owned(),
+        [] if diagnosis.status == Status::Unexplained => NO_EXPLANATION.to_owned(),
         [] if case.names_absent_law() => "(absent law in a true set)".to_owned(),
-        [] => NOTHING.to_owned(),
+        [] => NO_NAME.to_owned(),
         [claim] if claim.members().len() == 1 => claim.effect.clone(),
         [claim] if claim.members().iter().any(|member| case.is_true(member)) => {
-            SET_WITH_IT.to_owned()
+            SET_WITH_TRUTH.to_owned()
         }
         [_] => "(set without it)".to_owned(),
-        [_, _] if case.names_exactly(&concealed) => BOTH.to_owned(),
+        [_, _] if case.names_exactly(&concealed) => BOTH_NAMES.to_owned(),
         _ => "(several)".to_owned(),
     }
 }

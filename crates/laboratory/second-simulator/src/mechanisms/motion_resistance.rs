@@ -25,7 +25,7 @@ struct Sinking {
 
 impl Rolling {
     /// Hard ground.
-    pub(super) const PLAIN: Self = Self { onset_speed: ONSET_SPEED, sinking: None };
+    pub(super) const HARD_GROUND: Self = Self { onset_speed: ONSET_SPEED, sinking: None };
 
     /// Some ground.
     pub(super) fn draw(random: &mut Draws) -> Self {
@@ -79,7 +79,7 @@ impl Described for MotionResistance {
     };
 
     fn from_values(values: &[f64]) -> Self {
-        Self { coefficient: values[0], rolling: Rolling::PLAIN }
+        Self { coefficient: values[0], rolling: Rolling::HARD_GROUND }
     }
 
     fn drawn(values: &[f64], random: &mut Draws) -> Self {

@@ -37,7 +37,7 @@ impl Described for ResistanceSplit {
     };
 
     fn from_values(values: &[f64]) -> Self {
-        Self { difference: values[0], rolling: Rolling::PLAIN }
+        Self { difference: values[0], rolling: Rolling::HARD_GROUND }
     }
 
     fn drawn(values: &[f64], random: &mut Draws) -> Self {

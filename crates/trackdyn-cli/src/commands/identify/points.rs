@@ -11,7 +11,7 @@ use trackdyn::recording::PointsTable;
 use trackdyn::{Gauge, Recording};
 
 /// Points with the largest residuals that are shown.
-const WORST: usize = 5;
+const MAX_SHOWN_POINTS: usize = 5;
 
 /// One screen: the table, and both fits.
 pub fn text(recording: &Recording, gauge: &Gauge, found: &PointsFit) -> String {
@@ -114,7 +114,7 @@ fn worst(text: &mut String, points: &[OperatingPoint], fit: &SteadyEstimate) {
     text.push_str(
         "\n  largest residuals without alphas, in scatters (forward, lateral, yaw rate)\n",
     );
-    for index in fit.worst().into_iter().take(WORST) {
+    for index in fit.worst().into_iter().take(MAX_SHOWN_POINTS) {
         let (point, residuals) = (points[index], fit.residuals[index]);
         let residuals = residuals.map(|r| r.map_or_else(|| "-".to_owned(), |r| format!("{r:.1}")));
         let _ = writeln!(

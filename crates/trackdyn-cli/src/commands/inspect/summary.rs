@@ -9,7 +9,7 @@ use trackdyn::inspect::{Content, Driving, Lack, Rows, Verdict};
 use trackdyn::recording::{PointsTable, Topic};
 
 /// Topics of no use that are named.
-const MAX_OTHERS: usize = 12;
+const MAX_OTHER_TOPICS: usize = 12;
 
 /// What is there, what it is good for, what looks wrong, what it lacks.
 pub fn text(found: &Inspection) -> String {
@@ -90,7 +90,7 @@ fn topics(text: &mut String, topics: &[Topic]) {
         }
     }
     if !others.is_empty() {
-        let named = others.iter().take(MAX_OTHERS);
+        let named = others.iter().take(MAX_OTHER_TOPICS);
         let mut names: Vec<String> =
             named.map(|topic| format!("{} ({})", topic.name, topic.kind)).collect();
         let more = others.len() - names.len();

@@ -27,13 +27,13 @@ use trackdyn_blind_trial::score::{Judged, Outcome, Revisited, rates_csv, resolut
 use trackdyn_blind_trial::{Answers, Diagnosis, Entry, diagnosis, folder};
 
 /// The recording of the new driving, and the plan for it.
-const AGAIN: &str = "again";
+const NEW_DRIVE: &str = "again";
 const PLAN: &str = "plan";
 const SCHEDULE: &str = "plan.csv";
 /// What was asked for.
-const ASKED: &str = "asked.toml";
+const REQUEST: &str = "asked.toml";
 /// What a diagnosis leaves for a plan.
-const CORRECTED: &str = "vehicle.corrected.toml";
+const CORRECTED_VEHICLE: &str = "vehicle.corrected.toml";
 
 /// Options of `trackdyn trial drive`.
 #[derive(Args)]
@@ -110,7 +110,7 @@ pub fn run(options: &Options) -> Exited {
 
 /// Begins a folder of results, or goes on with it where the same was asked for.
 fn take_up(out: &Path, asked: &Asked) -> Result<(), Box<dyn Error>> {
-    let path = out.join(ASKED);
+    let path = out.join(REQUEST);
     if path.exists() {
         let before: Asked = Document::read(&path)?.parse()?;
         if before.answers_sha256 != asked.answers_sha256 {
@@ -148,7 +148,10 @@ impl Visit<'_> {
             let Some(schedule) = self.schedule()? else { return Ok(Outcome::NothingToDrive) };
             match revisit(self.answers, &self.judged.answer.id, schedule) {
                 Ok(recording) => {
-                    trackdyn::crates::recording::folder::write(&recording, &self.home.join(AGAIN))?;
+                    trackdyn::crates::recording::folder::write(
+                        &recording,
+                        &self.home.join(NEW_DRIVE),
+                    )?;
                 }
                 Err(error) => return Ok(Outcome::Failed(error.to_string())),
             }
@@ -166,7 +169,7 @@ impl Visit<'_> {
     fn plan(&self) -> Result<Option<String>, Box<dyn Error>> {
         let room = Room::new()?;
         let before = Entry::default().diagnosis(&self.case);
-        for name in [diagnosis::FILE, CORRECTED] {
+        for name in [diagnosis::FILE, CORRECTED_VEHICLE] {
             if let Err(reason) = room.bring(&before.join(name), name) {
                 return Ok(Some(reason));
             }
@@ -205,8 +208,8 @@ impl Visit<'_> {
         for name in [folder::RECORDING, folder::VEHICLE] {
             room.bring(&self.case.join(name), name)?;
         }
-        room.bring(&self.home.join(AGAIN), AGAIN)?;
-        let sources = [folder::RECORDING, AGAIN, "--vehicle", folder::VEHICLE];
+        room.bring(&self.home.join(NEW_DRIVE), NEW_DRIVE)?;
+        let sources = [folder::RECORDING, NEW_DRIVE, "--vehicle", folder::VEHICLE];
         let arguments = [&sources[..], &["--held-out", HELD_OUT, "--out", OUT]].concat();
         let failed = room.run(&self.program("diagnose")?, &arguments)?;
         if failed.is_none() {

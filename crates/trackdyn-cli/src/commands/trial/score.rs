@@ -147,7 +147,7 @@ fn undiagnosed(scores: &[Score]) -> String {
 /// Where the scores of programs go, so that those of others do not replace them.
 fn usual_folder(entries: &[Entry]) -> String {
     match entries {
-        [own] if own.name() == Entry::OWN => "score".to_owned(),
+        [own] if own.name() == Entry::OWN_NAME => "score".to_owned(),
         _ => format!("score.{}", entries.iter().map(Entry::name).collect::<Vec<_>>().join("+")),
     }
 }

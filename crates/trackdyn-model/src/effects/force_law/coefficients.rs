@@ -11,7 +11,7 @@ const PLACE: f64 = 0.01;
 const TIME: f64 = 0.03;
 
 /// Largest coefficient, in multiples of the typical one.
-const MAX_PER_TYPICAL: f64 = 50.0;
+const MAX_TYPICAL_MULTIPLE: f64 = 50.0;
 
 /// Unit of time, s.
 const TIME_SCALE: Parameter = Parameter {
@@ -45,7 +45,7 @@ macro_rules! coefficients {
                 unit: "1",
                 meaning: $meaning,
                 role: Role::Size { neutral: 0.0 },
-                range: [-MAX_PER_TYPICAL * $typical, MAX_PER_TYPICAL * $typical],
+                range: [-MAX_TYPICAL_MULTIPLE * $typical, MAX_TYPICAL_MULTIPLE * $typical],
                 typical: $typical,
             },)+
             TIME_SCALE,

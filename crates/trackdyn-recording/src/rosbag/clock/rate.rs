@@ -17,7 +17,7 @@ const MAX_STEP: f64 = 0.02;
 
 /// Share of the messages that are logged and stamped after the one before: a driver that logs in
 /// bursts shows no rate.
-const MIN_RISING: f64 = 0.9;
+const MIN_RISING_SHARE: f64 = 0.9;
 
 /// Logging and stamp of messages, ns, by their logging.
 #[derive(Clone, Debug)]
@@ -36,7 +36,7 @@ impl Rate {
         let rising = pairs.windows(2).filter(rises).count();
         let has_rate = change > MIN_CHANGE
             && step < MAX_STEP * change
-            && real(rising) > MIN_RISING * real(pairs.len());
+            && real(rising) > MIN_RISING_SHARE * real(pairs.len());
         has_rate.then(|| Self(pairs.to_vec()))
     }
 

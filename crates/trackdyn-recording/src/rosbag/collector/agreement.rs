@@ -9,8 +9,8 @@ use trackdyn_core::Side;
 
 /// Part by which joints of a side may turn faster than another all along, without a word and at
 /// all: the mean of both is off by half of it.
-const MAX_UNTOLD: f64 = 0.02;
-const MAX_FASTER: f64 = 0.05;
+const MAX_SILENT_DIFFERENCE: f64 = 0.02;
+const MAX_SPEED_DIFFERENCE: f64 = 0.05;
 
 /// Keeps the joints of a side that move, which have to move alike.
 ///
@@ -46,7 +46,7 @@ pub(super) fn keep_alike(
     }
     let names: Vec<&str> = names(joints, side);
     let Some((other, ratio)) = faster(&means) else { return Ok(()) };
-    if ratio.max(1.0 / ratio) >= 1.0 + MAX_FASTER {
+    if ratio.max(1.0 / ratio) >= 1.0 + MAX_SPEED_DIFFERENCE {
         return Err(one_of_both(joints, side, [names[0], names[other]], ratio));
     }
     warnings.push(told_faster(side, &names, other, ratio));
@@ -59,13 +59,13 @@ fn names(joints: &[Joint], side: Side) -> Vec<&str> {
     of_side.map(|joint| joint.name.as_str()).collect()
 }
 
-/// The joint that turns faster or slower than the first all along, and the speed of the first per
-/// speed of that one; the largest such ratio, where it is worth a word.
+/// The joint whose speed has the most deviating constant ratio to that of the first joint, and that
+/// ratio, first over other. None where no ratio is worth a warning.
 fn faster(means: &[Vec<f64>]) -> Option<(usize, f64)> {
     let size = |ratio: f64| ratio.max(1.0 / ratio);
     let all = (1..means.len()).filter_map(|at| {
         let ratio = ratio_all_along(&means[0], &means[at])?;
-        (size(ratio) >= 1.0 + MAX_UNTOLD).then_some((at, ratio))
+        (size(ratio) >= 1.0 + MAX_SILENT_DIFFERENCE).then_some((at, ratio))
     });
     all.max_by(|(_, a), (_, b)| size(*a).total_cmp(&size(*b)))
 }

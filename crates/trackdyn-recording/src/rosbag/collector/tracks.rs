@@ -119,7 +119,7 @@ fn absent(sources: &[Source], options: &RosbagOptions, topics: &[String]) -> Opt
     let mut told: Vec<&Source> = Vec::new();
     for source in sources {
         let is_it = |other: &&Source| other.topic == source.topic && other.names == source.names;
-        if told.len() < MAX_TOLD && !told.iter().any(is_it) {
+        if told.len() < MAX_LISTED_KINDS && !told.iter().any(is_it) {
             told.push(source);
         }
     }
@@ -133,7 +133,7 @@ fn absent(sources: &[Source], options: &RosbagOptions, topics: &[String]) -> Opt
 }
 
 /// Most kinds of messages that an error lists.
-const MAX_TOLD: usize = 8;
+const MAX_LISTED_KINDS: usize = 8;
 
 /// The joints of these sources, and those that their names leave out.
 fn joints(sources: Vec<Source>) -> (Vec<Joint>, PerSide<Vec<String>>) {

@@ -8,7 +8,7 @@
 //! # Assumes
 //! Beyond [`MAX_TILT`] the tilt is that of the mount, below it that of the ground and of the
 //! sensor. An IMU whose z axis points down and one that reports gravity in place of specific force
-//! read alike: beyond [`MIN_OVERTURNED`] nothing is turned.
+//! read alike: beyond [`MIN_OVERTURNED_TILT`] nothing is turned.
 
 use super::{Received, Rows};
 use crate::recording::Warning;
@@ -32,7 +32,7 @@ const MAX_DIFFERENCE: f64 = 0.15;
 const MAX_TILT: f64 = 0.26;
 
 /// Tilt from which on up and down cannot be told apart, rad: 150 degrees.
-const MIN_OVERTURNED: f64 = 2.62;
+const MIN_OVERTURNED_TILT: f64 = 2.62;
 
 /// Yaw rates and horizontal forces of an IMU, of its readings as they came.
 pub(super) fn upright(
@@ -66,7 +66,7 @@ fn turn(readings: &[Received<Inertial>]) -> Option<Rotation3<f64>> {
     let mean = sum / real(count.max(1));
     let is_gravity = (mean.norm() / GRAVITY - 1.0).abs() < MAX_DIFFERENCE;
     let tilt = mean.angle(&Vector3::z());
-    if !is_gravity || !(MAX_TILT..=MIN_OVERTURNED).contains(&tilt) {
+    if !is_gravity || !(MAX_TILT..=MIN_OVERTURNED_TILT).contains(&tilt) {
         return None;
     }
     Rotation3::rotation_between(&mean, &Vector3::z())

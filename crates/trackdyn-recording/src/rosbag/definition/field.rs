@@ -49,7 +49,7 @@ impl Field {
 }
 
 /// Messages whose numbers are no measurement.
-const NO_MEASUREMENT: [&str; 4] = [
+const UNMEASURED_TYPES: [&str; 4] = [
     "std_msgs/Header",
     "builtin_interfaces/Time",
     "builtin_interfaces/Duration",
@@ -58,7 +58,7 @@ const NO_MEASUREMENT: [&str; 4] = [
 
 /// Deepest message, and most paths, that a list of numbers has.
 const MAX_LISTED_DEPTH: usize = 3;
-const MAX_LISTED: usize = 64;
+const MAX_LISTED_PATHS: usize = 64;
 
 impl Definition {
     /// The paths of its numbers; of an array that of the first element.
@@ -70,7 +70,7 @@ impl Definition {
 
     fn add_numbers(&self, message: usize, before: &str, depth: usize, paths: &mut Vec<String>) {
         for member in &self.messages[message].members {
-            if paths.len() >= MAX_LISTED || member.count == Count::Fixed(0) {
+            if paths.len() >= MAX_LISTED_PATHS || member.count == Count::Fixed(0) {
                 continue;
             }
             let element = if member.count == Count::One { "" } else { "[0]" };
@@ -87,7 +87,7 @@ impl Definition {
 
     /// Whether the numbers of a message may be measured ones.
     fn is_measured(&self, message: usize) -> bool {
-        !NO_MEASUREMENT.contains(&self.messages[message].kind.as_str())
+        !UNMEASURED_TYPES.contains(&self.messages[message].kind.as_str())
     }
 
     /// The way to a field that is a number.

@@ -15,7 +15,7 @@ const RULE: &str = "===";
 
 /// Definitions that no bag and no folder has to have: those of numbers and joints, which bags of
 /// ROS 2 before Iron hold without.
-const KNOWN: [(&str, &str); 18] = [
+const KNOWN_DEFINITIONS: [(&str, &str); 18] = [
     ("builtin_interfaces/Time", "int32 sec\nuint32 nanosec"),
     ("builtin_interfaces/Duration", "int32 sec\nuint32 nanosec"),
     ("std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id"),
@@ -116,8 +116,9 @@ impl Texts {
     /// # Errors
     /// What is missing, and the option that helps.
     pub(in super::super) fn definition(&self, kind: &str) -> Result<Definition, String> {
-        let known =
-            |kind: &str| KNOWN.iter().find(|(name, _)| *name == kind).map(|(_, text)| *text);
+        let known = |kind: &str| {
+            KNOWN_DEFINITIONS.iter().find(|(name, _)| *name == kind).map(|(_, text)| *text)
+        };
         let text = |kind: &str| {
             let text = self.of_bag.get(kind).or_else(|| self.of_folder.get(kind));
             text.map(String::as_str).or_else(|| known(kind))

@@ -8,7 +8,7 @@ use trackdyn_diagnose::document::separate_by;
 use trackdyn_diagnose::evidence::Origin;
 
 /// A diagnosis of two logs.
-const BOTH: &str = "trackdyn diagnose LOG NEW_LOG --vehicle VEHICLE";
+const BOTH_LOGS: &str = "trackdyn diagnose LOG NEW_LOG --vehicle VEHICLE";
 
 /// Something to do, and what to type.
 #[derive(Serialize)]
@@ -73,7 +73,7 @@ pub(super) fn of(subject: &Subject) -> Vec<Step> {
                 ));
             }
             if is_open && !is_table {
-                steps.push(step("Diagnose the old and the new log together.", BOTH));
+                steps.push(step("Diagnose the old and the new log together.", BOTH_LOGS));
             }
             steps.push(step(
                 "Until then vehicle.corrected.toml takes the first of each: good to predict \
@@ -90,7 +90,7 @@ pub(super) fn of(subject: &Subject) -> Vec<Step> {
             };
             steps.push(step(look, ""));
             if !is_table {
-                steps.push(step("Drive there again, and diagnose both logs together.", BOTH));
+                steps.push(step("Drive there again, and diagnose both logs together.", BOTH_LOGS));
             }
             steps.push(step("Do not build on vehicle.corrected.toml beyond this log.", ""));
         }

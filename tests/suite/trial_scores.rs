@@ -1,9 +1,12 @@
 //! Scores on answers and diagnoses that are written by hand.
 
-use super::*;
-use crate::answer::{Answer, Concealed, Instrument};
-use crate::diagnosis::Diagnosis;
-use crate::plan::Stratum;
+use trackdyn_blind_trial::answer::{Answer, Concealed, Instrument};
+use trackdyn_blind_trial::diagnosis::Diagnosis;
+use trackdyn_blind_trial::plan::Stratum;
+use trackdyn_blind_trial::score::{
+    Judged, Outcome, Reply, Revisited, Score, cases_csv, markdown, means, rates, resolution,
+    resolution_markdown,
+};
 use trackdyn_second_simulator::MECHANISMS;
 
 fn concealed(id: &str, z_det: f64, z_iso: f64) -> Concealed {
@@ -71,7 +74,7 @@ fn rate(cases: &[Judged], name: &str) -> (usize, usize) {
     rate.map_or((0, 0), |rate| (rate.successes, rate.cases))
 }
 
-const NOTHING: &str = "status = 'nothing-missing'";
+const NOTHING_MISSING: &str = "status = 'nothing-missing'";
 const SLOPE: &str = "status = 'explained'\n[[missing]]\neffect = 'slope'\none_of = ['slope']\n";
 const SLOPE_OR_TETHER: &str =
     "status = 'ambiguous'\n[[missing]]\neffect = 'slope'\none_of = ['slope', 'tether']\n";
@@ -82,14 +85,14 @@ const SCALE: &str = "status = 'explained'\n[[missing]]\neffect = 'encoder-scale'
 #[test]
 fn only_what_is_not_there_is_a_false_claim() {
     let null = |text| case(Stratum::PlainNull, Vec::new(), text);
-    let cases = [null(NOTHING), null(SCALE), null(SLOPE), null(SLOPE_OR_TETHER)];
+    let cases = [null(NOTHING_MISSING), null(SCALE), null(SLOPE), null(SLOPE_OR_TETHER)];
     // an encoder that is truly off is no false claim; a set of which nothing is true is one
     assert_eq!(rate(&cases, "false claim: nulls"), (2, 4));
     assert_eq!(rate(&cases, "nothing missing: nulls"), (1, 4));
     // a law beside an encoder that is truly off is excused as a claim, and counted as absent
     let beside = "status = 'ambiguous'\n[[missing]]\neffect = 'slope'\n\
                   one_of = ['slope', 'encoder-scale']\n";
-    let cases = [null(NOTHING), null(SCALE), null(beside)];
+    let cases = [null(NOTHING_MISSING), null(SCALE), null(beside)];
     assert_eq!(rate(&cases, "false claim: nulls"), (0, 3));
     assert_eq!(rate(&cases, "an absent law is named"), (1, 3));
 }
@@ -99,8 +102,13 @@ fn isolation_is_exact_and_sets_are_no_isolation() {
     let single = |text| case(Stratum::Single, vec![concealed("slope", 20.0, 9.0)], text);
     let both = format!("{SLOPE}[[missing]]\neffect = 'centripetal'\n");
     let beside = format!("{SLOPE}[[missing]]\neffect = 'encoder-scale'\n");
-    let cases =
-        [single(NOTHING), single(SLOPE), single(SLOPE_OR_TETHER), single(&both), single(&beside)];
+    let cases = [
+        single(NOTHING_MISSING),
+        single(SLOPE),
+        single(SLOPE_OR_TETHER),
+        single(&both),
+        single(&beside),
+    ];
     assert_eq!(rate(&cases, "exact isolation"), (2, 5));
     assert_eq!(rate(&cases, "wrong single name, an absent law alone: cases"), (1, 5));
     let lag =
@@ -122,7 +130,7 @@ fn constants_are_counted_apart_and_a_true_name_is_no_wrong_one() {
     let close = |text| case(Stratum::Equivalence, vec![concealed("slope", 20.0, 1.0)], text);
     // far from all effects but its own class, of which constant ICRs tell no member
     let shift = case(Stratum::Equivalence, vec![concealed("cog-shift", 200.0, 190.0)], SLOPE);
-    let cases = [close(SLOPE), close(SLOPE_OR_TETHER), close(NOTHING), close(SCALE), shift];
+    let cases = [close(SLOPE), close(SLOPE_OR_TETHER), close(NOTHING_MISSING), close(SCALE), shift];
     assert_eq!(rate(&cases, "truth in the reported set: detectable singles but"), (2, 4));
     assert_eq!(rate(&cases, "truth in the reported set: detectable constants"), (0, 1));
     // a slope in the place of a shift
@@ -161,9 +169,9 @@ fn pairs_intervals_and_laws_outside() {
 
 #[test]
 fn what_was_not_run_does_not_count_and_what_failed_is_counted() {
-    let mut absent = case(Stratum::PlainNull, Vec::new(), NOTHING);
+    let mut absent = case(Stratum::PlainNull, Vec::new(), NOTHING_MISSING);
     absent.reply = Reply::Absent;
-    let mut failed = case(Stratum::Single, vec![concealed("slope", 20.0, 9.0)], NOTHING);
+    let mut failed = case(Stratum::Single, vec![concealed("slope", 20.0, 9.0)], NOTHING_MISSING);
     failed.reply = Reply::Failed("no".to_owned());
     let score = Score::of(vec![absent, failed]);
     assert_eq!((score.judged.len(), score.absent), (1, 1));
@@ -231,7 +239,8 @@ fn sets_that_move_constants_only_are_not_driven_for() {
 
 #[test]
 fn a_rule_names_what_it_should_not_along_with_what_it_should() {
-    let single = |id: &str, z_iso| case(Stratum::Single, vec![concealed(id, 9.0, z_iso)], NOTHING);
+    let single =
+        |id: &str, z_iso| case(Stratum::Single, vec![concealed(id, 9.0, z_iso)], NOTHING_MISSING);
     let cases = vec![single("slope", 5.0), single("slope", 3.0), single("cog-shift", 50.0)];
     let score = Score::of(cases);
     let at_four = score.reach.iter().find(|reach| (reach.threshold - 4.0).abs() < 1e-9);
@@ -239,6 +248,6 @@ fn a_rule_names_what_it_should_not_along_with_what_it_should() {
     // Φ(1), and of two others Φ(−1) and none
     assert!((reach.isolable - 0.841_345).abs() < 1e-6, "{reach:?}");
     assert!((reach.others - 0.158_655 / 2.0).abs() < 1e-6, "{reach:?}");
-    assert!(tables::markdown(&score).contains("| 4.0 | 84.1 % | 7.9 % |"));
+    assert!(markdown(&score).contains("| 4.0 | 84.1 % | 7.9 % |"));
     assert!(Score::of(vec![single("slope", 5.0)]).reach.is_empty());
 }

@@ -1,9 +1,9 @@
 //! How far matches are off, and whether their covariance says so.
 
 use super::course::{self, between};
-use crate::{Match, MatchOptions, Outline, Reference, Room, Scanner, Status};
 use nalgebra::Vector3;
 use trackdyn_core::Pose;
+use trackdyn_localisation::{Match, MatchOptions, Outline, Reference, Room, Scanner, Status};
 
 /// Matches in the furnished room at the paper's motion, each with its truth.
 fn matches(scanner: &Scanner, stated_noise: f64, seed: u64, count: u64) -> Vec<(Match, Pose)> {

@@ -1,9 +1,9 @@
 //! Paths through the furnished room.
 
-use crate::{Room, Scan, Scanner};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use trackdyn_core::{Pose, Twist};
+use trackdyn_localisation::{Room, Scan, Scanner};
 
 /// Random number in a range.
 pub(super) fn between(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {

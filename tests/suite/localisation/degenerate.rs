@@ -1,10 +1,10 @@
 //! What scans cannot tell.
 
 use super::course::{self, between};
-use crate::{Match, MatchOptions, Outline, Reference, Room, Scanner, Status};
 use nalgebra::Vector3;
 use rand_distr::{Distribution, StandardNormal};
 use trackdyn_core::Pose;
+use trackdyn_localisation::{Match, MatchOptions, Outline, Reference, Room, Scanner, Status};
 
 struct Trial {
     found: Match,

@@ -1,8 +1,8 @@
 //! Bad guesses, strangers in the scan, and input that makes no sense.
 
 use super::course::{self, between};
-use crate::{Deviation, MatchOptions, Reference, Room, Scan, Scanner, Status};
 use trackdyn_core::Pose;
+use trackdyn_localisation::{Deviation, MatchOptions, Reference, Room, Scan, Scanner, Status};
 
 #[test]
 fn without_odometry_matches_are_right_or_say_so() {

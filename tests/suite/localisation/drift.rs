@@ -1,12 +1,12 @@
 //! How far whole paths are off.
 
 use super::course;
-use crate::{
-    Error, Localisation, LocalisedPose, MatchAgainst, Room, Scan, Scanner, Status, localise,
-};
 use std::time::{Duration, Instant};
 use trackdyn_core::Pose;
 use trackdyn_core::pose::wrap_angle;
+use trackdyn_localisation::{
+    Error, Localisation, LocalisedPose, MatchAgainst, Room, Scan, Scanner, Status, localise,
+};
 
 /// Sums over all scans of paths of 20 m.
 #[derive(Default)]

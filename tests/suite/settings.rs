@@ -1,9 +1,8 @@
-//! Tests of the tree.
+//! Settings of the diagnosis: their tree, files that set them, and their page.
 
-use super::{Entry, SettingError, Settings, page};
 use toml::{Table, Value};
 use trackdyn_core::document::Document;
-use trackdyn_estimate::likely_noise::Search;
+use trackdyn_diagnose::settings::{Entry, SettingError, Settings, page};
 
 fn table(text: &str) -> Table {
     text.parse().expect("a table")
@@ -90,13 +89,7 @@ fn a_value_set_in_rust_is_checked_too() {
 /// The page of the documents is what the program prints.
 #[test]
 fn the_page_is_the_tree() {
-    let path = "../../docs/theory/diagnosis/settings.md";
-    let written = std::fs::read_to_string(path).expect("the page");
+    let path = "docs/theory/diagnosis/settings.md";
+    let written = include_str!("../../docs/theory/diagnosis/settings.md");
     assert_eq!(written, page(), "cargo run -p trackdyn-diagnose --example settings > {path}");
-}
-
-/// Identification and diagnosis look for noise in one way.
-#[test]
-fn noise_is_looked_for_as_by_default() {
-    assert_eq!(Settings::default().noise.search(), Search::default());
 }

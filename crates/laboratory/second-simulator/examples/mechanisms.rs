@@ -1,0 +1,5 @@
+//! Prints docs/trials/forms.md.
+
+fn main() {
+    print!("{}", trackdyn_second_simulator::page());
+}

@@ -155,7 +155,7 @@ fn stuck_stretches_move_the_distance_by_less_than_its_standard_error() {
 #[test]
 fn slips_do_not_pull_the_clock() {
     let search = ClockSearch::default();
-    let cases: Vec<_> = (0..DRIVES).zip(WHOLE.iter()).collect();
+    let cases: Vec<_> = (0..DRIVES).zip(WHOLE_DRIVES.iter()).collect();
     let moved = cases.into_par_iter().map(|(seed, (whole, _))| {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let hurt = spoiled(whole, &[Fault::Slip], share(0.1, whole), &mut random);

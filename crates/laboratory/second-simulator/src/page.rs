@@ -5,8 +5,8 @@ use crate::sheet::{Origin, Sheet, Trial};
 
 const HEAD: &str = "# Laws of the second simulator
 
-All mechanisms of the [second simulator](../theory/second-simulator.md). Printed by `cargo run -p
-trackdyn-second-simulator --example mechanisms`.
+All mechanisms of the [second simulator](../theory/second-simulator.md). Printed by
+`cargo run -p trackdyn-second-simulator --example mechanisms`.
 
 ## Of the catalogue
 
@@ -18,8 +18,8 @@ const FAMILIES: &str = "
 
 A [trial](../trials.md) draws one form of a law for each case, by a number that stands in its
 answers, so that no form can be learnt. All forms of a family break the same symmetries, which is
-measured, and their sizes mean the same. `trackdyn simulate --ground independent --mechanism
-ID:form=NUMBER` drives on one.
+measured, and their sizes mean the same.
+`trackdyn simulate --ground independent --mechanism ID:form=NUMBER` drives on one.
 ";
 
 const SUM: &str = "

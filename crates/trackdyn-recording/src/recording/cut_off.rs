@@ -40,7 +40,7 @@ const MIN_HALF_STEP: f64 = 0.005;
 const MIN_ERRORS: f64 = 4.0;
 const MAX_ERRORS: f64 = 3.0;
 
-/// Between rounded and cut off, and as far beyond.
+/// Smallest and largest κ of speeds that are cut off: halfway to rounded ones, and as far beyond.
 const MIN_KAPPA: f64 = 0.5;
 const MAX_KAPPA: f64 = 1.5;
 

@@ -79,5 +79,5 @@ fn a_name_is_seen() {
     assert!(names("\"--effect slope:angle_deg=3\"", "slope"));
     assert!(!names("\"down the slope: it slides\"; slope::Slope", "slope"));
     assert!(!names("\"no-time-offset\", \"time-offsets\"", "time-offset"));
-    assert!(!code("// \"slope\"\n#[cfg(test)]\nmod tests { \"slope\" }").contains("slope"));
+    assert!(!code("// \"slope\"\n#[cfg(test)]\nmod tests {\n    \"slope\"\n}").contains("slope"));
 }

@@ -339,10 +339,10 @@ pub fn clock_offset(recording: &Recording, search: &ClockSearch) -> Result<Clock
     if is_at_end {
         return Err(Error::ClockFar { tau: coarse, farthest: search.farthest });
     }
-    let Some(moments) = Moments::robust(&intervals, coarse) else {
+    let Some(moments) = Moments::new(&intervals, coarse) else {
         return Err(refuse("the readings end too close to the pose intervals".to_owned()));
     };
-    let Some((moments, tau)) = moments.solved() else {
+    let Some(tau) = moments.root() else {
         return Err(refuse(format!("the correlation has no clear peak around {coarse:.2} s")));
     };
     let Estimate { gain, standard_error } = moments.estimate(tau);

@@ -5,7 +5,6 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use std::sync::LazyLock;
-use trackdyn_estimate::clock::{ClockSearch, clock_offset};
 use trackdyn_estimate::{Free, Interval};
 use trackdyn_recording::{Recording, Run, Source, TrackSample, Warning};
 
@@ -25,8 +24,6 @@ enum Fault {
     Dead,
     /// Three seconds at the speed before.
     Stuck,
-    /// Half a second in which the belt slips and runs faster.
-    Slip,
 }
 
 impl Fault {
@@ -36,7 +33,7 @@ impl Fault {
     /// How many readings it spoils.
     fn length(self) -> usize {
         match self {
-            Self::Dead | Self::Slip => 16,
+            Self::Dead => 16,
             Self::Stuck => 100,
             Self::Spike | Self::Restart | Self::Flip => 1,
         }
@@ -52,7 +49,6 @@ impl Fault {
                 Self::Restart => sign * 0.1 * random.random_range(20.0..4000.0) / 0.03,
                 Self::Flip => -*speed,
                 Self::Dead => 0.0,
-                Self::Slip => 2.5 * *speed,
                 Self::Stuck if side == 0 => first.left,
                 Self::Stuck => first.right,
             };
@@ -63,24 +59,10 @@ impl Fault {
 /// The recording with a random number of faults of these kinds.
 fn corrupted(recording: &Recording, kinds: &[Fault], seed: u64) -> Recording {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let bad = random.random_range(1..=share(MAX_BAD_SHARE, recording));
-    spoiled(recording, kinds, bad, &mut random)
-}
-
-/// A share of the readings of a recording.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share")]
-fn share(part: f64, recording: &Recording) -> usize {
     let readings: usize = recording.runs().iter().map(|run| run.tracks().len()).sum();
-    (part * trackdyn_core::real(readings)) as usize
-}
-
-/// The recording with so many readings spoiled by faults of these kinds.
-fn spoiled(
-    recording: &Recording,
-    kinds: &[Fault],
-    mut left: usize,
-    random: &mut ChaCha8Rng,
-) -> Recording {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share")]
+    let most = (MAX_BAD_SHARE * trackdyn_core::real(readings)) as usize;
+    let mut left = random.random_range(1..=most);
     let mut runs: Vec<_> = recording.runs().iter().cloned().map(Run::into_rows).collect();
     while left > 0 {
         let kind = kinds[random.random_range(0..kinds.len())];
@@ -89,7 +71,7 @@ fn spoiled(
         let tracks = &mut runs[run].tracks.samples;
         let first = random.random_range(0..tracks.len() - length);
         let side = random.random_range(0..2);
-        kind.apply(&mut tracks[first..first + length], side, random);
+        kind.apply(&mut tracks[first..first + length], side, &mut random);
         left -= length;
     }
     Recording::new("hurt", "robot", runs, Source::computed(), Vec::new()).expect("usable")
@@ -149,24 +131,6 @@ fn stuck_stretches_move_the_distance_by_less_than_its_standard_error() {
     let [largest, mean] = moved(&[Fault::Stuck], 100);
     println!("stuck: largest {largest:.2}, mean {mean:.2} standard errors");
     assert!(largest < 1.0 && mean < 0.2, "{largest} {mean}");
-}
-
-/// A track that slips for a tenth of the time leaves the clock where it was.
-#[test]
-fn slips_do_not_pull_the_clock() {
-    let search = ClockSearch::default();
-    let cases: Vec<_> = (0..DRIVES).zip(WHOLE_DRIVES.iter()).collect();
-    let moved = cases.into_par_iter().map(|(seed, (whole, _))| {
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let hurt = spoiled(whole, &[Fault::Slip], share(0.1, whole), &mut random);
-        let [before, after] =
-            [whole, &hurt].map(|of| clock_offset(of, &search).expect("it turns").tau);
-        (after - before).abs()
-    });
-    let moved: Vec<f64> = moved.collect();
-    let largest = moved.iter().copied().fold(0.0, f64::max);
-    println!("by {largest:.4} s at most: {moved:.4?}");
-    assert!(largest < 0.003, "{largest}");
 }
 
 /// A level that no track has, for three readings up to more than a second.

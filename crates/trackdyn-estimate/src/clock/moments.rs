@@ -1,35 +1,11 @@
 //! The offset at which the residual is orthogonal to instruments without the noise of D.
-//!
-//! A track that slips for a moment leaves residuals far beyond all others. They would pull the
-//! offset. So weights fall with the square of a residual beyond a bound that noise does not reach,
-//! as those of a t distribution do, from a start by least absolute values.
-//!
-//! # Sources
-//! Holland, Welsch, Communications in Statistics A 6(9), 1977 (weights).
 
 use super::intervals::{Intervals, RunIntervals, Turn};
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use trackdyn_core::real;
-use trackdyn_core::robust::deviation_about_zero;
 
 /// Length of a block whose residuals may be correlated, s.
 const BLOCK_DURATION: f64 = 5.0;
-
-/// Residual, in their robust deviation, from which on a pose interval counts less: noise reaches it
-/// once in a million times.
-const MAX_RESIDUAL: f64 = 5.0;
-
-/// How far the offset is looked for, in reaches of the instruments.
-const MAX_REACH: f64 = 4.0;
-
-/// Step of the offset to the start of the weights, s.
-const START_STEP: f64 = 0.01;
-
-/// Most rounds of weighting.
-const MAX_ROUNDS: usize = 10;
-
-/// Change of the offset that ends them, s.
-const MIN_CHANGE: f64 = 1e-5;
 
 /// Pose intervals with their instruments, and where to look for the offset.
 pub(super) struct Moments<'a> {
@@ -40,7 +16,6 @@ pub(super) struct Moments<'a> {
 }
 
 /// A pose interval with its instruments.
-#[derive(Clone, Copy)]
 struct Row<'a> {
     run: &'a RunIntervals,
     turn: &'a Turn,
@@ -48,8 +23,6 @@ struct Row<'a> {
     block: (usize, f64),
     /// Lead plus lag, Δt, lead minus lag.
     instruments: [f64; 3],
-    /// At most one.
-    weight: f64,
 }
 
 /// What goes with an offset.
@@ -77,7 +50,7 @@ impl<'a> Moments<'a> {
                 let lead = run.difference(turn, coarse - away);
                 let block = (index, (turn.start / BLOCK_DURATION).floor());
                 let instruments = [lead + lag, turn.end - turn.start, lead - lag];
-                rows.push(Row { run, turn, block, instruments, weight: 1.0 });
+                rows.push(Row { run, turn, block, instruments });
             }
         }
         let track_interval = intervals.track_interval;
@@ -88,67 +61,11 @@ impl<'a> Moments<'a> {
         self.rows.len()
     }
 
-    /// As [`Moments::new`]: where residuals at a robust start lie far off, around that start, with
-    /// weights.
-    pub(super) fn robust(intervals: &'a Intervals, coarse: f64) -> Option<Self> {
-        let plain = Self::new(intervals, coarse)?;
-        let weighted = plain.start().and_then(|(tau, gain)| {
-            let of_start = |moments: &Self| moments.weighted_at(tau, [gain, 0.0].into());
-            let has_outliers = of_start(&plain)?.rows.iter().any(|row| row.weight < 1.0);
-            has_outliers.then(|| of_start(&Self::new(intervals, tau)?)).flatten()
-        });
-        Some(weighted.unwrap_or(plain))
-    }
-
-    /// The offset, with the weights that go with it; none where the moment keeps its sign.
-    pub(super) fn solved(mut self) -> Option<(Self, f64)> {
-        let mut tau = self.root()?;
-        for _ in 0..MAX_ROUNDS {
-            let there = self.linear(tau).and_then(|parameters| self.weighted_at(tau, parameters));
-            let Some(there) = there else { break };
-            let Some(next) = there.root() else { break };
-            let change = next - tau;
-            (tau, self) = (next, there);
-            if change.abs() < MIN_CHANGE {
-                break;
-            }
-        }
-        Some((self, tau))
-    }
-
-    /// Offset and k with the least sum of absolute residuals, b = 0.
-    fn start(&self) -> Option<(f64, f64)> {
-        let reach = MAX_REACH * self.width;
-        let taus = (0..).map(|k| -reach + START_STEP * real(k)).take_while(|by| *by <= reach);
-        let at = |by: f64| {
-            let tau = self.coarse + by;
-            let turn = |row: &Row<'a>| [row.run.difference(row.turn, tau), row.turn.yaw];
-            let turns: Vec<[f64; 2]> = self.rows.iter().map(turn).collect();
-            let gain = least_absolute_slope(&turns)?;
-            let sum = turns.iter().map(|[by, yaw]| (yaw - gain * by).abs()).sum::<f64>();
-            Some((sum, (tau, gain)))
-        };
-        taus.filter_map(at).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, start)| start)
-    }
-
-    /// With weights by the residuals at an offset, k and b; none where most residuals are zero.
-    fn weighted_at(&self, tau: f64, parameters: Vector2<f64>) -> Option<Self> {
-        let residuals: Vec<f64> =
-            self.rows.iter().map(|row| row.residual(tau, &parameters)).collect();
-        let deviation = deviation_about_zero(&mut residuals.clone())?;
-        let weighted = |(row, residual): (&Row<'a>, f64)| Row {
-            weight: (MAX_RESIDUAL * deviation / residual).powi(2).min(1.0),
-            ..*row
-        };
-        let rows = self.rows.iter().zip(residuals).map(weighted).collect();
-        (deviation > 0.0).then_some(Self { rows, ..*self })
-    }
-
     /// The offset at which the third moment vanishes, to 1 µs: first looked for within the reach of
     /// the instruments, then up to four times as far, where they begin to share readings with D.
     /// None where the moment keeps its sign.
-    fn root(&self) -> Option<f64> {
-        let brackets = [1.0, 2.0, MAX_REACH]
+    pub(super) fn root(&self) -> Option<f64> {
+        let brackets = [1.0, 2.0, 4.0]
             .map(|times| [self.coarse - times * self.width, self.coarse + times * self.width]);
         let change = |[low, high]: &[f64; 2]| {
             let (at_low, at_high) = (self.moment(*low)?, self.moment(*high)?);
@@ -170,8 +87,8 @@ impl<'a> Moments<'a> {
     fn linear(&self, tau: f64) -> Option<Vector2<f64>> {
         let mut matrix = Matrix2::zeros();
         let mut right = Vector2::zeros();
-        for Row { run, turn, instruments: [sum, duration, _], weight, .. } in &self.rows {
-            let instruments = Vector2::new(*sum, *duration) * *weight;
+        for Row { run, turn, instruments: [sum, duration, _], .. } in &self.rows {
+            let instruments = Vector2::new(*sum, *duration);
             let regressors = Vector2::new(run.difference(turn, tau), *duration);
             matrix += instruments * regressors.transpose();
             right += instruments * turn.yaw;
@@ -179,15 +96,15 @@ impl<'a> Moments<'a> {
         matrix.lu().solve(&right)
     }
 
-    /// Σ w (lead − lag) (Δψ − k D − b Δt), w the weights.
+    /// Σ (lead − lag) (Δψ − k D − b Δt).
     fn moment(&self, tau: f64) -> Option<f64> {
         let parameters = self.linear(tau)?;
-        let term = |row: &Row| row.weight * row.instruments[2] * row.residual(tau, &parameters);
-        Some(self.rows.iter().map(term).sum())
+        let terms = self.rows.iter().map(|row| row.instruments[2] * row.residual(tau, &parameters));
+        Some(terms.sum())
     }
 
     /// Standard error by the jackknife over blocks, linear in the parameters: leaving block g out
-    /// moves them by Δg = (G − Gg)⁻¹ sg, with G = Σ w Z Jᵀ and sg = Σ w Z r over the block; the
+    /// moves them by Δg = (G − Gg)⁻¹ sg, with G = Σ Z Jᵀ and sg = Σ Z r over the block; the
     /// covariance is (n − 1)/n Σ Δg Δgᵀ for n blocks. With few blocks the sandwich formula, which
     /// has G⁻¹ instead, is too small.
     ///
@@ -205,7 +122,7 @@ impl<'a> Moments<'a> {
                 let mut slopes = Matrix3::zeros();
                 let mut score = Vector3::zeros();
                 for row in block {
-                    let instruments = Vector3::from(row.instruments) * row.weight;
+                    let instruments = Vector3::from(row.instruments);
                     let at = |tau| row.run.difference(row.turn, tau);
                     let slope = (at(tau + half) - at(tau - half)) / (2.0 * half);
                     let gradient = Vector3::new(at(tau), row.instruments[1], gain * slope);
@@ -226,40 +143,10 @@ impl<'a> Moments<'a> {
     }
 }
 
-/// The slope k with the least Σ |y − k x| of pairs (x, y): the median of y/x weighted by |x|.
-fn least_absolute_slope(pairs: &[[f64; 2]]) -> Option<f64> {
-    let slope = |&[x, y]: &[f64; 2]| (x != 0.0).then(|| (y / x, x.abs()));
-    let mut slopes: Vec<(f64, f64)> = pairs.iter().filter_map(slope).collect();
-    slopes.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let whole: f64 = slopes.iter().map(|(_, weight)| weight).sum();
-    let mut below = 0.0;
-    let reaches_half = |(_, weight): &&(f64, f64)| {
-        below += weight;
-        below >= whole / 2.0
-    };
-    slopes.iter().find(reaches_half).map(|(slope, _)| *slope)
-}
-
 impl Row<'_> {
     /// Δψ − k D − b Δt.
     fn residual(&self, tau: f64, parameters: &Vector2<f64>) -> f64 {
         let difference = self.run.difference(self.turn, tau);
         self.turn.yaw - parameters[0] * difference - parameters[1] * self.instruments[1]
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_slope_of_least_absolute_values_ignores_a_minority() {
-        let pair = |k: u32| {
-            let x = f64::from(k % 7) - 3.0;
-            [x, if k.is_multiple_of(3) { 5.0 * x + 1.0 } else { 0.5 * x }]
-        };
-        let pairs: Vec<[f64; 2]> = (0..70).map(pair).collect();
-        assert_eq!(least_absolute_slope(&pairs), Some(0.5));
-        assert_eq!(least_absolute_slope(&[[0.0, 1.0]]), None);
     }
 }

@@ -68,15 +68,15 @@ pub fn test(
 /// Tests groups as one family.
 pub fn test_family(groups: &[Group], resampling: Resampling) -> Vec<Test> {
     let blocks = groups.iter().map(Group::blocks).max().unwrap_or_default();
-    let drawn: Vec<Vec<f64>> = (0..resampling.draws)
+    let drawn: Vec<f64> = (0..resampling.draws)
         .into_par_iter()
-        .map(|draw| {
+        .flat_map_iter(|draw| {
             let mut random = resampling.random(draw);
-            (0..blocks).map(|_| if random.random::<bool>() { 1.0 } else { -1.0 }).collect()
+            (0..blocks).map(move |_| if random.random::<bool>() { 1.0 } else { -1.0 })
         })
         .collect();
     // a column for each draw
-    let signs = DMatrix::from_fn(blocks, resampling.draws, |block, draw| drawn[draw][block]);
+    let signs = DMatrix::from_vec(blocks, resampling.draws, drawn);
     let none = || vec![f64::NEG_INFINITY; resampling.draws];
     let larger = |a: Vec<f64>, b: Vec<f64>| a.iter().zip(b).map(|(a, b)| a.max(b)).collect();
     let largest = groups

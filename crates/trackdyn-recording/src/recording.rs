@@ -265,8 +265,8 @@ impl Recording {
         &self.runs
     }
 
-    /// This recording with other runs. Its fingerprint stays that of the
-    /// whole: it tells where the runs come from.
+    /// This recording with other runs. Its fingerprint stays that of the whole: it tells where the
+    /// runs come from.
     pub fn with_runs(&self, runs: Vec<Run>) -> Self {
         Self {
             name: self.name.clone(),

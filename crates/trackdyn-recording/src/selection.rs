@@ -3,6 +3,7 @@
 use crate::recording::{Recording, UncheckedRun};
 use crate::sample::{Sample, Series};
 use crate::{Error, Run};
+use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::fmt;
 use std::str::FromStr;
@@ -98,13 +99,17 @@ impl Recording {
 
     /// The recording with its runs in the order in which they were driven: by time, where one ends
     /// before the next begins. Runs with clocks of their own stay in their order.
-    pub fn as_driven(&self) -> Self {
+    pub fn as_driven(&self) -> Cow<'_, Self> {
         let ends =
             |run: &Run| [run.tracks().first(), run.tracks().last()].map(|at| at.map(|at| at.t));
+        if self.runs().is_sorted_by(|a, b| ends(a) <= ends(b)) {
+            return Cow::Borrowed(self);
+        }
         let mut runs = self.runs().to_vec();
         runs.sort_by(|a, b| ends(a).partial_cmp(&ends(b)).unwrap_or(Ordering::Equal));
         let follows = |pair: &[Run]| ends(&pair[0])[1] <= ends(&pair[1])[0];
-        if runs.windows(2).all(follows) { self.with_runs(runs) } else { self.clone() }
+        let have_one_clock = runs.windows(2).all(follows);
+        if have_one_clock { Cow::Owned(self.with_runs(runs)) } else { Cow::Borrowed(self) }
     }
 
     /// The recording of a time only, s from the first reading of each run; runs without readings or

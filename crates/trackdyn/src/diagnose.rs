@@ -22,7 +22,7 @@ use trackdyn_diagnose::{DiagnosisFile, Evidence, Options, Resampling, Status};
 use trackdyn_estimate::Contradiction;
 use trackdyn_model::kinematics::Source;
 use trackdyn_model::{EffectId, VehicleFile};
-use trackdyn_recording::RunList;
+use trackdyn_recording::{Recording as Motion, RunList};
 use trackdyn_report::{Figure, Subject, diagnosis_figures, diagnosis_html};
 
 /// Name of the report.
@@ -117,8 +117,9 @@ impl Prepared {
         settings: &DiagnoseSettings,
     ) -> Result<Self, Error> {
         let recording = joined(recordings)?;
+        let driven = recording.motion().map(Motion::as_driven);
         let named = |cause| Error::Diagnose { recording: recording.place(), cause };
-        let (evidence, held_out, runs) = match (recording.points(), recording.motion()) {
+        let (evidence, held_out, runs) = match (recording.points(), driven.as_deref()) {
             (Some(points), _) => {
                 settings.held_out.refuse_runs()?;
                 let evidence =
@@ -126,10 +127,8 @@ impl Prepared {
                 let held_out = settings.held_out.of_points(evidence.runs().len());
                 (evidence, held_out, None)
             }
-            (None, Some(_)) => {
-                let motion = recording.expect_positions()?;
-                let runs = motion.run_list().to_string();
-                let motion = &motion.as_driven();
+            (None, Some(motion)) => {
+                let runs = recording.expect_positions()?.run_list().to_string();
                 let held_out = settings.held_out.of_motion(motion)?;
                 let (gauge, by_gyroscope) = (vehicle.gauge(), settings.gyroscope);
                 let evidence =
@@ -157,7 +156,7 @@ impl Prepared {
             fingerprint: recording.fingerprint().to_owned(),
             runs,
             time: recording.time(),
-            log: recording.motion().map(|motion| layers::Log::of(&motion.as_driven())),
+            log: driven.as_deref().map(layers::Log::of),
         })
     }
 

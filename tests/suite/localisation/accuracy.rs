@@ -14,13 +14,11 @@ fn matches(scanner: &Scanner, stated_noise: f64, seed: u64, count: u64) -> Vec<(
         .map(|trial| {
             let before = course::free_pose(&mut random);
             let truth = course::motion(&mut random, scanner.period);
-            let after = before.compose(&truth);
-            let scan =
-                |index, pose: Pose| scanner.scan(&room, 0.0, index, |_| pose).expect("a scan");
-            let reference = Reference::new(&scan(2 * trial, before), stated_noise).expect("lines");
+            let poses = [before, before.compose(&truth)];
+            let (reference, scan) =
+                course::reference_and_scan(&room, scanner, trial, poses, stated_noise);
             let mut off = || between(&mut random, -0.1, 0.1);
             let guess = Pose::new(truth.x + off(), truth.y + off(), truth.yaw + off());
-            let scan = scan(2 * trial + 1, after);
             (reference.locate(&scan, &guess, &options).expect("a match"), truth)
         })
         .collect()

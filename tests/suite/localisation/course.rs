@@ -3,7 +3,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use trackdyn_core::{Pose, Twist};
-use trackdyn_localisation::{Room, Scan, Scanner};
+use trackdyn_localisation::{Reference, Room, Scan, Scanner};
 
 /// Random number in a range.
 pub(super) fn between(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
@@ -25,6 +25,20 @@ pub(super) fn motion(random: &mut ChaCha8Rng, period: f64) -> Pose {
     let v_x = between(random, -1.0, 1.0);
     let v_y = between(random, -0.1, 0.1);
     Pose::exp(&Twist { v_x, v_y, w: between(random, -2.0, 2.0) }, period)
+}
+
+/// The lines that a scan at the first pose shows, if its ranges have this noise (m), and a scan at
+/// the second pose; each trial has noise of its own.
+pub(super) fn reference_and_scan(
+    room: &Room,
+    scanner: &Scanner,
+    trial: u64,
+    [before, after]: [Pose; 2],
+    noise: f64,
+) -> (Reference, Scan) {
+    let scan = |index, pose: Pose| scanner.scan(room, 0.0, index, |_| pose).expect("a scan");
+    let reference = Reference::new(&scan(2 * trial, before), noise).expect("lines");
+    (reference, scan(2 * trial + 1, after))
 }
 
 /// A path of true poses, one for each scan, on the free ground: arcs that turn away from the walls.

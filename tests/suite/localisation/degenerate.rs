@@ -4,7 +4,7 @@ use super::course::{self, between};
 use nalgebra::Vector3;
 use rand_distr::{Distribution, StandardNormal};
 use trackdyn_core::Pose;
-use trackdyn_localisation::{Match, MatchOptions, Outline, Reference, Room, Scanner, Status};
+use trackdyn_localisation::{Match, MatchOptions, Outline, Room, Scanner, Status};
 
 struct Trial {
     found: Match,
@@ -22,12 +22,10 @@ fn trials(room: &Room, count: u64) -> Vec<Trial> {
         let x = between(&mut random, -5.0, 5.0);
         let before = Pose::new(x, between(&mut random, -0.4, 0.4), heading);
         let truth = course::motion(&mut random, scanner.period);
-        let after = before.compose(&truth);
-        let scan = |index, pose: Pose| scanner.scan(room, 0.0, index, |_| pose).expect("a scan");
-        let reference = Reference::new(&scan(2 * trial, before), 0.01).expect("lines");
+        let poses = [before, before.compose(&truth)];
+        let (reference, scan) = course::reference_and_scan(room, &scanner, trial, poses, 0.01);
         let mut off = || -> f64 { 0.1 * Distribution::<f64>::sample(&StandardNormal, &mut random) };
         let guess = Pose::new(truth.x + off(), truth.y + off(), truth.yaw + off());
-        let scan = scan(2 * trial + 1, after);
         let found = reference.locate(&scan, &guess, &MatchOptions::default()).expect("a match");
         Trial { found, truth, heading }
     };
@@ -80,10 +78,9 @@ fn a_round_room_is_no_room_of_lines() {
         let before =
             Pose::new(between(&mut random, -1.0, 1.0), between(&mut random, -1.0, 1.0), 0.0);
         let after = before.compose(&course::motion(&mut random, scanner.period));
-        let scan = |index, pose: Pose| scanner.scan(&room, 0.0, index, |_| pose).expect("a scan");
-        let reference = Reference::new(&scan(2 * trial, before), 0.01).expect("lines");
+        let poses = [before, after];
+        let (reference, scan) = course::reference_and_scan(&room, &scanner, trial, poses, 0.01);
         let guess = before.relative(&after);
-        let scan = scan(2 * trial + 1, after);
         let found = reference.locate(&scan, &guess, &MatchOptions::default()).expect("a match");
         assert_ne!(found.status, Status::Converged, "{trial} {found:?}");
     }

@@ -15,10 +15,8 @@ fn without_odometry_matches_are_right_or_say_so() {
     for trial in 0..300 {
         let before = course::free_pose(&mut random);
         let truth = course::motion(&mut random, scanner.period);
-        let after = before.compose(&truth);
-        let scan = |index, pose: Pose| scanner.scan(&room, 0.0, index, |_| pose).expect("a scan");
-        let reference = Reference::new(&scan(2 * trial, before), 0.01).expect("lines");
-        let scan = scan(2 * trial + 1, after);
+        let poses = [before, before.compose(&truth)];
+        let (reference, scan) = course::reference_and_scan(&room, &scanner, trial, poses, 0.01);
         let found = reference.locate(&scan, &Pose::default(), &options).expect("a match");
         if found.status == Status::Converged {
             converged += 1;
@@ -37,10 +35,8 @@ fn a_person_in_the_way_is_left_out() {
     for trial in 0..100 {
         let before = course::free_pose(&mut random);
         let truth = course::motion(&mut random, scanner.period);
-        let after = before.compose(&truth);
-        let scan = |index, pose: Pose| scanner.scan(&room, 0.0, index, |_| pose).expect("a scan");
-        let reference = Reference::new(&scan(2 * trial, before), 0.01).expect("lines");
-        let clean = scan(2 * trial + 1, after);
+        let poses = [before, before.compose(&truth)];
+        let (reference, clean) = course::reference_and_scan(&room, &scanner, trial, poses, 0.01);
         // A body half a metre wide at one metre covers 28 degrees.
         let mut ranges = clean.ranges().to_vec();
         for range in &mut ranges[150..206] {
@@ -60,12 +56,11 @@ fn another_room_is_not_matched() {
     let scanner = Scanner::default();
     let mut random = course::random(13);
     for trial in 0..100 {
-        let pose = course::free_pose(&mut random);
-        let here = scanner.scan(&Room::furnished(), 0.0, 2 * trial, |_| pose).expect("a scan");
+        let here = course::free_pose(&mut random);
         // Four metres off and turned by half a turn: the same lab, from elsewhere.
-        let pose = Pose::new(10.0 - pose.x, 8.0 - pose.y, pose.yaw + 1.0);
-        let there = scanner.scan(&Room::furnished(), 0.0, 2 * trial + 1, |_| pose).expect("a scan");
-        let reference = Reference::new(&here, 0.01).expect("lines");
+        let poses = [here, Pose::new(10.0 - here.x, 8.0 - here.y, here.yaw + 1.0)];
+        let (reference, there) =
+            course::reference_and_scan(&Room::furnished(), &scanner, trial, poses, 0.01);
         let guess = Pose::default();
         let found = reference.locate(&there, &guess, &MatchOptions::default()).expect("a match");
         assert_ne!(found.status, Status::Converged, "{trial} {found:?}");

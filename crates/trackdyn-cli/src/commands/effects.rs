@@ -65,7 +65,7 @@ fn list() -> String {
         X place, T time, D transients; 0: equal track speeds do not drive straight ahead as \
         encoders show.\n\
         `trackdyn effects ID` shows law, parameters and sources.\n";
-    for card in effects().iter().filter(|card| card.moves_load()) {
+    if let Some(card) = effects().iter().find(|card| card.moves_load()) {
         let (id, Parameter { key, typical, .. }) = (card.id, &card.parameters[0]);
         let _ = write!(
             text,

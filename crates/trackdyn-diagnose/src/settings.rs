@@ -174,8 +174,8 @@ tree! {
     comparison: Comparison,
     /// What driving tells rivals apart.
     plan: Plan,
-    /// Speeds of the manoeuvres from which a plan chooses, as shares of the fastest track speed, and
-    /// ratios of the inner to the outer track.
+    /// Speeds of the manoeuvres from which a plan chooses, as shares of the fastest track speed,
+    /// and ratios of the inner to the outer track.
     menu: Menu,
 }
 

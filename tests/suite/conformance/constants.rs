@@ -30,7 +30,7 @@ type Argued = (&'static str, &'static str, &'static [&'static str], &'static str
 /// All numeric constants of the diagnosis, and of what it uses.
 const ARGUED: &[Argued] = &[
     // definitions and formats
-    ("diagnose", "base.rs", &["OFFSETS"], "places of three unknowns"),
+    ("diagnose", "base.rs", &["OFFSETS", "SHOWN_BY_INERTIA"], "places of unknowns"),
     ("diagnose", "compare.rs", &["STAGES"], "stages, as they are reported"),
     ("diagnose", "compare/quantity.rs", &["HALF"], "quantile of a 95 % interval"),
     ("diagnose", "compare/words.rs", &["MAX_DECIMALS", "LISTED"], "how numbers are written"),

@@ -3,8 +3,8 @@
 use trackdyn_core::settings_group;
 
 settings_group! {
-    /// Speeds of the manoeuvres from which a plan chooses, as shares of the fastest track speed, and
-    /// ratios of the inner to the outer track.
+    /// Speeds of the manoeuvres from which a plan chooses, as shares of the fastest track speed,
+    /// and ratios of the inner to the outer track.
     Menu {
         /// Speeds of spins.
         spin_shares: [f64; 3] = [0.25, 0.5, 1.0], "", [0.01, 1.0],

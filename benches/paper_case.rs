@@ -4,7 +4,7 @@ use trackdyn_core::PerSide;
 use trackdyn_estimate::SegmentOptions;
 use trackdyn_estimate::genetic::GeneticEstimate;
 use trackdyn_estimate::least_squares::Loss;
-use trackdyn_estimate::noise::noise;
+use trackdyn_estimate::noise::{self, noise};
 use trackdyn_estimate::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
 use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_estimate::{
@@ -51,7 +51,10 @@ impl PaperCase {
         let recording = synthetic.recording().expect("long enough");
         let observations = Observations::new(&recording, &SegmentOptions::default());
         assert_eq!(observations.len(), SEGMENTS);
-        let measured = SegmentNoise::measured(&noise(&recording, 0.0), 2.0 * GAUGE);
+        let measured = SegmentNoise::measured(
+            &noise(&recording, 0.0, &noise::Settings::default()),
+            2.0 * GAUGE,
+        );
         Self { observations, by_noise: Weighting::Noise(measured.expect("steady driving")) }
     }
 

@@ -4,6 +4,7 @@ mod adding_an_effect;
 mod arrows;
 mod circles;
 mod compiled_once;
+mod constants;
 mod crates;
 mod licences;
 mod literals;

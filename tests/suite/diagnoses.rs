@@ -15,7 +15,7 @@ use trackdyn_diagnose::{
 };
 use trackdyn_drive::sensors::{Imu, Preset};
 use trackdyn_drive::{ScheduleKind, ScheduleOptions, Sensors};
-use trackdyn_estimate::noise::noise;
+use trackdyn_estimate::noise::{self, noise};
 use trackdyn_model::kinematics::Source;
 use trackdyn_recording::{Recording, Run};
 use trackdyn_tests::concealed::{
@@ -62,7 +62,7 @@ fn half_a_minute_without_rest_is_diagnosed() {
     let mut sensors = sensors(Preset::Laboratory);
     sensors.pose.interval = 0.25;
     let recording = drive.recording(&sensors, 3);
-    let measured = noise(&recording, sensors.clock_offset());
+    let measured = noise(&recording, sensors.clock_offset(), &noise::Settings::default());
     assert!(measured.standing.is_none() && measured.moving.is_none(), "{measured:?}");
     let found = diagnosed(&recording, &file).expect("an answer");
     assert_eq!(physics(&found), [BTreeSet::from(["load-transfer"])]);

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use trackdyn_core::PerSide;
 use trackdyn_estimate::SegmentOptions;
 use trackdyn_estimate::least_squares::Loss;
-use trackdyn_estimate::noise::noise;
+use trackdyn_estimate::noise::{self, noise};
 use trackdyn_estimate::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
 use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_estimate::{
@@ -61,7 +61,8 @@ fn start() -> Parameters {
 
 /// Least squares with the noise that the recording shows.
 fn fit(recording: &Recording, free: Free) -> Result<Estimate, Error> {
-    let measured = SegmentNoise::measured(&noise(recording, 0.0), 0.8).expect("steady driving");
+    let measured = SegmentNoise::measured(&noise(recording, 0.0, &noise::Settings::default()), 0.8)
+        .expect("steady driving");
     let weighting = Weighting::Noise(measured);
     least_squares(&observe(recording), &start(), &free.into(), &weighting, Loss::Huber)
 }

@@ -46,7 +46,7 @@ fn what_is_no_setting_is_refused_by_name() {
     let message = refused("[verdict]\nmax_q = 0.01\n");
     assert!(message.starts_with("verdict.max_q: expected one of verdict.max_p"), "{message}");
     let message = refused("[rules]\n");
-    assert!(message.starts_with("rules: expected one of evidence, noise"), "{message}");
+    assert!(message.starts_with("rules: expected one of evidence, reference"), "{message}");
     assert_eq!(refused("verdict = 3\n"), "verdict = 3: expected a table of settings");
     let message = refused("[verdict]\nmax_p = 2\n");
     assert_eq!(message, "verdict.max_p = 2: expected a number from 0 to 1");
@@ -84,6 +84,9 @@ fn a_value_set_in_rust_is_checked_too() {
     let error = settings.check().expect_err("no number");
     assert!(matches!(error, SettingError::Value { path, .. } if path == "verdict.max_p"));
     assert_eq!(settings.get("verdict"), None);
+    // of a group that stands beside its code
+    settings.set("clock.last", &Value::Integer(7200)).expect("set");
+    assert_eq!(settings.clock.last, 7200.0);
 }
 
 /// The page of the documents is what the program prints.

@@ -16,6 +16,7 @@ pub mod robust;
 pub mod rounding;
 pub mod scalar;
 pub mod schedule;
+pub mod settings;
 pub mod side;
 pub mod status;
 pub mod trajectory;

@@ -21,15 +21,6 @@ use trackdyn_estimate::odometry::Estimate;
 use trackdyn_estimate::odometry::intervals::{Sums, size};
 use trackdyn_model::VehicleFile;
 
-/// Lengths of pieces that are tried, m, longest first: errors of heading show only over a distance.
-const DISTANCES: [f64; 7] = [100.0, 50.0, 20.0, 10.0, 5.0, 2.0, 1.0];
-
-/// Angles that are tried, rad, largest first.
-const TURNS: [f64; 3] = [TAU, PI, FRAC_PI_2];
-
-/// Fewest pieces for a drift: of fewer, one weighs more than a tenth.
-const MIN_PIECES: usize = 10;
-
 /// A length that is reached but for rounding.
 const ROUNDING: f64 = 1.0 - 1e-9;
 
@@ -62,7 +53,7 @@ impl Drift {
     /// table of steady points, or where one has no motion in time.
     ///
     /// A piece crosses no gap, and no sample that is lost or has no motion. Pieces are as long as
-    /// ten of them allow.
+    /// their fewest number allows.
     pub fn of(evidence: &Weighted, files: [&VehicleFile; 2]) -> Self {
         if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
             return Self::default();
@@ -77,7 +68,10 @@ impl Drift {
         // noise of the poses would turn a robot that drives straight ahead
         let turned = |_: &Sample, index: usize| motions[1][index].yaw.abs();
         let stretches = stretches(evidence, &motions);
-        let replayed = Replayed { samples, motions: &motions, stretches };
+        let settings = &evidence.settings().drift;
+        let min_pieces = settings.min_pieces;
+        let replayed = Replayed { samples, motions: &motions, stretches, min_pieces };
+        let angles = settings.angles.map(|turns| turns * TAU);
         let [forward, left, yaw] = evidence.noise().map_or([0.0; 3], |noise| noise.pose);
         let place_noise = |observed: &Pose| place_noise([forward, left, yaw], observed);
         // E|e| = √(2/π) σ of the difference of two yaws, σ² = 2 σ_yaw²
@@ -87,8 +81,8 @@ impl Drift {
         };
         let turned_apart = |predicted: &Pose, observed: &Pose| (predicted.yaw - observed.yaw).abs();
         Self {
-            place: replayed.compared(&DISTANCES, travelled, apart, place_noise),
-            yaw: replayed.compared(&TURNS, turned, turned_apart, yaw_noise),
+            place: replayed.compared(&settings.distances, travelled, apart, place_noise),
+            yaw: replayed.compared(&angles, turned, turned_apart, yaw_noise),
         }
     }
 }
@@ -128,6 +122,8 @@ struct Replayed<'a> {
     samples: &'a [Sample],
     motions: &'a [Vec<Pose>; 2],
     stretches: Vec<Range<usize>>,
+    /// Fewest pieces for a drift.
+    min_pieces: usize,
 }
 
 impl Replayed<'_> {
@@ -142,7 +138,7 @@ impl Replayed<'_> {
         let length_of = |index: usize| way(&self.samples[index], index);
         let (length, pieces) = lengths.iter().find_map(|&length| {
             let pieces = self.pieces(length, length_of);
-            (pieces.len() >= MIN_PIECES).then_some((length, pieces))
+            (pieces.len() >= self.min_pieces).then_some((length, pieces))
         })?;
         let blocks = self.samples.iter().map(|sample| sample.block + 1).max().unwrap_or(0);
         let mut sums: Vec<Sums<4>> = vec![[0.0; 4]; blocks];
@@ -197,6 +193,7 @@ fn chained(motions: impl Iterator<Item = Pose>) -> Pose {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::settings;
     use nalgebra::Vector3;
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
@@ -226,12 +223,20 @@ mod tests {
         let motions = [wrong, right];
         let half = samples.len() / 2;
         let stretches = vec![0..half, half..samples.len()];
-        let replayed = Replayed { samples, motions: &motions, stretches };
+        let settings = settings::Drift::default();
+        let min_pieces = settings.min_pieces;
+        let replayed = Replayed { samples, motions: &motions, stretches, min_pieces };
+        let angles = settings.angles.map(|turns| turns * TAU);
         let turned = |_: &Sample, index: usize| motions[1][index].yaw.abs();
         let way = |sample: &Sample, _| 0.5 * sample.duration;
         [
-            replayed.compared(&TURNS, turned, |a, b| (a.yaw - b.yaw).abs(), |_| 0.01),
-            replayed.compared(&DISTANCES, way, |a, b| (a.x - b.x).hypot(a.y - b.y), |_| 0.0),
+            replayed.compared(&angles, turned, |a, b| (a.yaw - b.yaw).abs(), |_| 0.01),
+            replayed.compared(
+                &settings.distances,
+                way,
+                |a, b| (a.x - b.x).hypot(a.y - b.y),
+                |_| 0.0,
+            ),
         ]
     }
 

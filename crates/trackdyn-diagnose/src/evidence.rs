@@ -233,7 +233,7 @@ impl Evidence {
     pub fn with_regular_stamps(&self) -> Self {
         let mut tracks = self.tracks.to_vec();
         for run in &mut tracks {
-            regularise(run, |reading| &mut reading.t);
+            regularise(run, |reading| &mut reading.t, &self.settings.stamps);
         }
         Self { tracks: tracks.into(), ..self.clone() }
     }
@@ -252,7 +252,7 @@ impl Evidence {
     /// The evidence with encoder speeds smoothed between ticks of the given quantisation steps,
     /// m/s.
     pub fn with_speeds_between_ticks(&self, steps: PerSide<f64>) -> Self {
-        let tracks = ticks::smoothed(&self.tracks, steps, &self.settings.evidence);
+        let tracks = ticks::smoothed(&self.tracks, steps, &self.settings);
         Self { tracks: tracks.into(), ..self.clone() }
     }
 

@@ -49,9 +49,6 @@ pub struct Forms {
     pub gain: f64,
 }
 
-/// Largest norm of a column times its prior deviation that is not worth a column.
-const MIN_NORM: f64 = 0.5;
-
 impl Forms {
     /// Forms of the laws of forces in a fitted hypothesis, with τ the most probable of these
     /// deviations and none. The catalogue has the derivatives by sizes of the vehicle file.
@@ -179,7 +176,8 @@ fn columns(
             columns.push((change, known));
         }
     }
-    columns.retain(|(column, share)| share.at(deviation) * square(column).sqrt() > MIN_NORM);
+    let least = evidence.settings().prior.min_form_effect;
+    columns.retain(|(column, share)| share.at(deviation) * square(column).sqrt() > least);
     columns.into_iter().unzip()
 }
 

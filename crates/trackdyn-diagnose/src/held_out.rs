@@ -65,8 +65,11 @@ impl HeldOut {
     /// Share of the squared excess over the noise floor that the corrected model explains; none
     /// where there is no excess.
     pub fn excess_explained(&self) -> Option<f64> {
+        /// Smallest excess of which there is a share, in the squared noise floor: a guard against
+        /// a ratio of nothing to nothing.
+        const MIN_EXCESS: f64 = 1e-3;
         let excess = self.before.powi(2) - self.noise_floor.powi(2);
-        (excess > 1e-3 * self.noise_floor.powi(2))
+        (excess > MIN_EXCESS * self.noise_floor.powi(2))
             .then(|| (self.before.powi(2) - self.after.powi(2)) / excess)
     }
 }

@@ -18,7 +18,7 @@ use crate::evidence::Evidence;
 use crate::evidence::planned::PlannedRun;
 use crate::settings::{self, Settings};
 use crate::weighted::Weighted;
-use menu::{INTERVAL, Manoeuvre, menu};
+use menu::{Manoeuvre, menu};
 use nalgebra::DMatrix;
 use rivals::Rival;
 use separation::{Pair, products, shares, squared};
@@ -120,8 +120,9 @@ impl Plan {
     pub fn schedule(&self) -> Option<Schedule> {
         let speeds = self.steps.iter().flat_map(|step| &step.manoeuvre.speeds);
         let last = PerSide::default();
+        let interval = self.steps.first()?.manoeuvre.interval;
         let commands = speeds.chain([&last]).enumerate().map(|(k, speeds)| Command {
-            t: rounded(INTERVAL * real(k)),
+            t: rounded(interval * real(k)),
             speeds: speeds.map(rounded),
         });
         Schedule::new(commands.collect()).ok()
@@ -150,7 +151,7 @@ pub fn plan(
     };
     options.method.check()?;
     let settings = &options.method.plan;
-    let menu = menu(options.fastest, gap(file, settings)?, settings);
+    let menu = menu(options.fastest, gap(file, settings)?, &options.method);
     let shortest = menu.iter().map(Manoeuvre::duration).fold(f64::MAX, f64::min);
     if shortest > options.duration {
         return Err(Error::TooShort { given: options.duration, needed: shortest });
@@ -238,10 +239,11 @@ fn evidence(runs: &[PlannedRun], fitted: &Rival, options: &Options) -> Weighted 
 
 /// Manoeuvres one after the other as a run, each a block.
 fn run(manoeuvres: &[&Manoeuvre], start: f64, pose: Pose) -> PlannedRun {
+    let interval = manoeuvres.first().map_or(0.0, |first| first.interval);
     let mut tracks = Vec::new();
     let mut blocks = Vec::new();
     let mut push = |speeds: &PerSide<f64>| {
-        let t = start + INTERVAL * real(tracks.len());
+        let t = start + interval * real(tracks.len());
         tracks.push(TrackSample { t, v_left: speeds.left, v_right: speeds.right });
         tracks.len()
     };

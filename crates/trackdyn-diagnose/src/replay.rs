@@ -36,13 +36,13 @@ fn by(mechanics: &Mechanics, instruments: &Instruments, evidence: &Evidence) -> 
 /// Delays of poses that are tried, s: those that the readings of all samples cover, around the
 /// recording's own offset.
 fn delays(evidence: &Evidence) -> impl Iterator<Item = f64> {
-    /// Step, s: between readings at 100 Hz.
-    const STEP: f64 = 0.01;
-    let (own, margin) = (evidence.tau(), evidence.settings().evidence.clock_margin);
+    let settings = evidence.settings();
+    let (step, margin) = (settings.drift.delay_step, settings.evidence.clock_margin);
+    let own = evidence.tau();
     let [first, last] = [own.min(0.0) - margin, own.max(0.0) + margin];
-    let [back, on] = [first, last].map(|end| ((end - own) / STEP).trunc());
-    let steps = std::iter::successors(Some(back), |step| Some(step + 1.0));
-    steps.take_while(move |step| *step <= on).map(move |step| own + step * STEP)
+    let [back, on] = [first, last].map(|end| ((end - own) / step).trunc());
+    let steps = std::iter::successors(Some(back), |k| Some(k + 1.0));
+    steps.take_while(move |k| *k <= on).map(move |k| own + k * step)
 }
 
 /// Sum of the errors of yaw, rad.

@@ -5,35 +5,44 @@
 //! [`page`] prints all of them: `docs/theory/diagnosis/settings.md` is that
 //! text.
 //!
+//! Groups of what other uses of a recording share, such as its clock, stand beside their code in
+//! [`trackdyn_estimate`].
+//!
 //! What stays a constant in the code is no choice: stand-ins for zero and infinity, the medians of
-//! distributions, the number of nodes of a table.
+//! distributions, the number of nodes of a table. A test of the suite lists each with its reason.
 
 mod answer;
 mod base;
 mod candidates;
+mod comparison;
+mod drift;
 mod evidence;
 mod fit;
-mod group;
+mod held_out;
 mod limits;
 mod location;
 mod mechanics;
+mod menu;
 mod noise;
 mod page;
 mod plan;
 mod prior;
 mod proposal;
 mod search;
-mod value;
 mod verdict;
 
 pub use answer::Answer;
 pub use base::Base;
 pub use candidates::Candidates;
+pub use comparison::Comparison;
+pub use drift::Drift;
 pub use evidence::Evidence;
 pub use fit::Fit;
+pub use held_out::HeldOut;
 pub use limits::Limits;
 pub use location::Location;
 pub use mechanics::Mechanics;
+pub use menu::Menu;
 pub use noise::Noise;
 pub use page::page;
 pub use plan::Plan;
@@ -42,14 +51,15 @@ pub use proposal::Proposal;
 pub use search::Search;
 pub use verdict::Verdict;
 
-use group::Group;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::path::Path;
 use toml::{Spanned, Table, Value};
 use trackdyn_core::document::{Document, DocumentError};
-use value::Number;
+pub use trackdyn_core::settings::Entry;
+use trackdyn_core::settings::Group;
+use trackdyn_estimate as estimate;
 
 /// Settings of accuracy that were there once. Files that have them are read; they decide nothing.
 const FORMER_SETTINGS: [&str; 1] = ["noise.taken_difference"];
@@ -78,28 +88,9 @@ pub enum SettingError {
     },
 }
 
-/// What is known of one setting.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
-    /// Group and name, as in `verdict.min_ln_bayes_factor`.
-    pub path: String,
-    /// Unit; empty for a pure number.
-    pub unit: &'static str,
-    /// Smallest and largest value.
-    pub range: [f64; 2],
-    /// Value that it has unless it is set.
-    pub default: Value,
-    /// What it is.
-    pub meaning: String,
-    /// Why it has that value.
-    pub why: &'static str,
-    /// What happens when it is wrong; none of what is numerical accuracy alone.
-    pub if_wrong: Option<&'static str>,
-}
-
 /// The groups of the tree: a field of [`Settings`] for each, in the order of the stages.
 macro_rules! tree {
-    ($($(#[doc = $about:literal])+ $group:ident: $kind:ident,)+) => {
+    ($($(#[doc = $about:literal])+ $group:ident: $kind:ty,)+) => {
         /// All numbers that decide the answer of a diagnosis.
         #[derive(Clone, Debug, Default, PartialEq)]
         #[non_exhaustive]
@@ -113,7 +104,7 @@ macro_rules! tree {
                 vec![$((
                     stringify!($group),
                     concat!($($about),+).trim().to_owned(),
-                    $kind::entries(stringify!($group)),
+                    <$kind>::entries(stringify!($group)),
                 ),)+]
             }
 
@@ -137,6 +128,22 @@ macro_rules! tree {
 tree! {
     /// What counts as evidence, and what its residuals weigh.
     evidence: Evidence,
+    /// When poses are no reference: those computed from the tracks are refused.
+    reference: estimate::contradiction::Settings,
+    /// How the clock offset of the poses is found.
+    clock: estimate::clock::Settings,
+    /// How stamps that jitter are set right.
+    stamps: estimate::regular::Settings,
+    /// How noise is measured before any model: from there its search starts.
+    measured_noise: estimate::noise::Settings,
+    /// When a gyroscope corrects the yaw of poses, where that is asked for.
+    gyroscope: estimate::gyroscope::Settings,
+    /// Which driving tells the distance of the ICRs by itself: it weighs noise of the tracks.
+    spin: estimate::spin_test::Settings,
+    /// When runs have frames of their own, where the recording does not say.
+    frames: estimate::frames::Settings,
+    /// Which runs, or points of a table, the result is judged on, unless the caller says which.
+    held_out: HeldOut,
     /// How noise is told from what driving could explain.
     noise: Noise,
     /// What is known of each number before the evidence.
@@ -161,8 +168,15 @@ tree! {
     limits: Limits,
     /// When a form is proposed for what no effect explains.
     proposal: Proposal,
+    /// How drift of dead reckoning is measured.
+    drift: Drift,
+    /// How two sets of recordings are compared; most rules are those of claims.
+    comparison: Comparison,
     /// What driving tells rivals apart.
     plan: Plan,
+    /// Speeds of the manoeuvres from which a plan chooses, as shares of the fastest track speed,
+    /// and ratios of the inner to the outer track.
+    menu: Menu,
 }
 
 impl Settings {

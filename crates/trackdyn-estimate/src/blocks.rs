@@ -26,16 +26,17 @@ pub struct Blocks {
 }
 
 impl Blocks {
-    /// From this number of runs on, a run is a block; fewer are cut into about twice as many pieces
-    /// of equal length. With fewer blocks, their scatter is a poor variance.
+    /// The usual number of runs from which on each is a block. With fewer blocks, their scatter is a
+    /// poor variance.
     pub const MIN_WHOLE_RUNS: usize = 24;
 
-    /// Blocks of these runs, whose indices ascend.
-    pub fn new(extents: impl IntoIterator<Item = Extent>) -> Self {
+    /// Blocks of these runs, whose indices ascend: each run a block where there are
+    /// `min_whole_runs`; fewer are cut into about twice as many pieces of equal length.
+    pub fn new(extents: impl IntoIterator<Item = Extent>, min_whole_runs: usize) -> Self {
         let extents: Vec<Extent> = extents.into_iter().collect();
         let total: f64 = extents.iter().map(|extent| extent.duration).sum();
-        let piece = total / real(2 * Self::MIN_WHOLE_RUNS);
-        let is_cut = extents.len() < Self::MIN_WHOLE_RUNS && piece > 0.0;
+        let piece = total / real(2 * min_whole_runs);
+        let is_cut = extents.len() < min_whole_runs && piece > 0.0;
         let mut first = 0;
         let runs = extents.into_iter().map(|extent| {
             let pieces = if is_cut { pieces(extent.duration / piece) } else { 1 };
@@ -76,7 +77,7 @@ impl Blocks {
 }
 
 /// A length in pieces as their number, at least one.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 48")]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small and positive")]
 fn pieces(length: f64) -> usize {
     (length.round() as usize).max(1)
 }
@@ -86,7 +87,8 @@ mod tests {
     use super::*;
 
     fn runs(count: usize) -> Blocks {
-        Blocks::new((0..count).map(|run| Extent { run, start: 100.0, duration: 40.0 }))
+        let extents = (0..count).map(|run| Extent { run, start: 100.0, duration: 40.0 });
+        Blocks::new(extents, Blocks::MIN_WHOLE_RUNS)
     }
 
     #[test]
@@ -106,7 +108,8 @@ mod tests {
     #[test]
     fn longer_runs_have_more_pieces() {
         let extent = |run, duration| Extent { run, start: 0.0, duration };
-        let blocks = Blocks::new([extent(0, 10.0), extent(3, 470.0), extent(7, 0.0)]);
+        let extents = [extent(0, 10.0), extent(3, 470.0), extent(7, 0.0)];
+        let blocks = Blocks::new(extents, Blocks::MIN_WHOLE_RUNS);
         assert_eq!(
             (blocks.of(0, 9.0), blocks.of(3, 0.0), blocks.of(7, 0.0)),
             (Some(0), Some(1), Some(48))

@@ -23,40 +23,19 @@
 //! ed., chapter 5 and section 14.1.
 
 use crate::Error;
-use crate::thinned::with_poses_every;
 use trackdyn_core::real;
 use trackdyn_recording::Recording;
 
 mod intervals;
 mod moments;
 mod regression;
+mod settings;
+
+pub use settings::Settings;
 
 use intervals::Intervals;
 use moments::{Estimate, Moments};
 use regression::Fit;
-
-/// Poses that come more often are averaged, s: between two of them a robot hardly turns, and noise
-/// hides it.
-const MIN_POSE_INTERVAL: f64 = 0.05;
-
-/// Where to look for the clock offset.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ClockSearch {
-    /// Smallest offset, s.
-    pub earliest: f64,
-    /// Largest offset, s.
-    pub latest: f64,
-    /// Size of the offsets that are looked at where no clear peak lies between these two, s.
-    pub farthest: f64,
-    /// Size of the offsets of which a clear peak is taken where none of these is clear, s.
-    pub last: f64,
-}
-
-impl Default for ClockSearch {
-    fn default() -> Self {
-        Self { earliest: -0.5, latest: 1.0, farthest: 60.0, last: 600.0 }
-    }
-}
 
 /// The clock offset of a recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,10 +76,14 @@ impl Clock {
     /// # Errors
     /// [`Error::ClockFar`] and [`Error::Swapped`]: what shows that no offset of the search is right
     /// is no reason to work with zero.
-    pub fn of(recording: &Recording, given: Option<f64>) -> Result<Self, Error> {
+    pub fn of(
+        recording: &Recording,
+        given: Option<f64>,
+        settings: &Settings,
+    ) -> Result<Self, Error> {
         match given {
             Some(tau) => Ok(Self::Given(tau)),
-            None => match clock_offset(recording, &ClockSearch::default()) {
+            None => match clock_offset(recording, settings) {
                 Ok(offset) => Ok(Self::Estimated(offset)),
                 Err(reason @ Error::NotEstimable { .. }) => {
                     Ok(Self::Unknown { reason: reason.to_string(), correlation: None })
@@ -149,40 +132,6 @@ impl Clock {
     }
 }
 
-/// Step of the search, s.
-const SEARCH_STEP: f64 = 0.02;
-
-/// Step of the search beyond its first range, s: a part of the time in which robots turn.
-const FAR_STEP: f64 = 0.1;
-
-/// Smallest number of pose intervals for an estimate.
-const MIN_INTERVALS: usize = 20;
-
-/// Smallest correlation of encoders and poses that show the same turning.
-const MIN_CORRELATION: f64 = 0.5;
-
-/// Correlation of a peak beside which no other is looked for.
-const CLEAR_CORRELATION: f64 = 0.95;
-
-/// Share of the pose intervals that such a peak has to use.
-const MIN_CLEAR_SHARE: f64 = 0.5;
-
-/// Largest part of the variance beside the first peak, 1 − r², that a far one may leave: peaks of
-/// driving that repeats itself are hardly higher.
-const MAX_LEFT_BY_FAR_PEAK: f64 = 0.5;
-
-/// Most pose intervals of a search over a wide range.
-const MAX_INTERVALS: usize = 2000;
-
-/// Width of the search uphill on either side, s.
-const UPHILL: f64 = 1.0;
-
-/// Smallest share of the pose intervals that a far offset may use.
-const MIN_SHARE: f64 = 0.3;
-
-/// Largest standard error of an offset that is known, s: as far as offsets usually are.
-const MAX_ERROR: f64 = 0.5;
-
 /// An offset of a search with the fit there.
 #[derive(Clone, Copy)]
 struct Peak {
@@ -203,15 +152,16 @@ impl Peak {
         Self::of_every(1, intervals, [first, last], step, needed)
     }
 
-    /// As [`Peak::within`], of a wide range: by a part of the pose intervals where they are many.
+    /// As [`Peak::within`], of a wide range: in longer steps, and by a part of the pose intervals
+    /// where they are many.
     fn of_some(
         intervals: &Intervals,
         range: [f64; 2],
-        step: f64,
         needed: usize,
+        by: &Settings,
     ) -> Result<Self, usize> {
-        let stride = intervals.count().div_ceil(MAX_INTERVALS).max(1);
-        Self::of_every(stride, intervals, range, step, needed.div_ceil(stride))
+        let stride = intervals.count().div_ceil(by.max_intervals).max(1);
+        Self::of_every(stride, intervals, range, by.far_step, needed.div_ceil(stride))
     }
 
     /// As [`Peak::within`], by every so many of the pose intervals.
@@ -246,54 +196,58 @@ impl Peak {
 
 /// The highest peak of the correlation: of the first range, if it is clear or no other is higher by
 /// far.
-fn highest(intervals: &Intervals, search: &ClockSearch) -> Result<Peak, usize> {
-    let range = [search.earliest, search.latest];
-    let near = Peak::within(intervals, range, SEARCH_STEP, MIN_INTERVALS)?;
+fn highest(intervals: &Intervals, by: &Settings) -> Result<Peak, usize> {
+    let near = Peak::within(intervals, [by.earliest, by.latest], by.step, by.min_intervals)?;
     // A peak of a small part of the poses may be one of chance.
     let is_of_most =
-        |peak: &Peak| real(peak.fit.count) >= MIN_CLEAR_SHARE * real(intervals.count());
+        |peak: &Peak| real(peak.fit.count) >= by.min_clear_share * real(intervals.count());
     let is_clear =
-        |peak: &Peak| peak.fit.correlation.abs() >= CLEAR_CORRELATION && is_of_most(peak);
+        |peak: &Peak| peak.fit.correlation.abs() >= by.min_clear_correlation && is_of_most(peak);
     if !near.is_at_end && is_clear(&near) {
         return Ok(near);
     }
-    let needed = share(near.fit.count);
-    let reach = [-search.farthest, search.farthest];
-    let far = Peak::of_some(intervals, reach, FAR_STEP, needed)
+    let needed = share(near.fit.count, by);
+    let far = Peak::of_some(intervals, [-by.farthest, by.farthest], needed, by)
         .ok()
-        .filter(|far| far.left() <= MAX_LEFT_BY_FAR_PEAK * near.left());
+        .filter(|far| far.left() <= by.max_left_by_far_peak * near.left());
     let best = match far {
-        Some(far) => around(intervals, far, needed)?,
-        None => uphill(intervals, near, search)?,
+        Some(far) => around(intervals, far, needed, by)?,
+        None => uphill(intervals, near, by)?,
     };
     if best.fit.correlation > 0.0 && is_clear(&best) {
         return Ok(best);
     }
-    let farther =
-        |far: &Peak| best.fit.correlation < CLEAR_CORRELATION || far.fit.count > 2 * best.fit.count;
-    Ok(farthest(intervals, search).filter(farther).unwrap_or(best))
+    let farther = |far: &Peak| {
+        best.fit.correlation < by.min_clear_correlation || far.fit.count > 2 * best.fit.count
+    };
+    Ok(farthest(intervals, by).filter(farther).unwrap_or(best))
 }
 
 /// Fewest of so many pose intervals that a far offset may use.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of them")]
-fn share(count: usize) -> usize {
-    ((MIN_SHARE * real(count)) as usize).max(MIN_INTERVALS)
+fn share(count: usize, by: &Settings) -> usize {
+    ((by.min_share * real(count)) as usize).max(by.min_intervals)
 }
 
 /// The peak near one of a coarse search.
-fn around(intervals: &Intervals, coarse: Peak, needed: usize) -> Result<Peak, usize> {
-    let around = [coarse.tau - FAR_STEP, coarse.tau + FAR_STEP];
-    let fine = Peak::within(intervals, around, SEARCH_STEP, needed)?;
+fn around(
+    intervals: &Intervals,
+    coarse: Peak,
+    needed: usize,
+    by: &Settings,
+) -> Result<Peak, usize> {
+    let around = [coarse.tau - by.far_step, coarse.tau + by.far_step];
+    let fine = Peak::within(intervals, around, by.step, needed)?;
     Ok(Peak { is_at_end: coarse.is_at_end, ..fine })
 }
 
 /// The peak that the correlation rises to from an end of the first range.
-fn uphill(intervals: &Intervals, near: Peak, search: &ClockSearch) -> Result<Peak, usize> {
-    let within = |tau: f64| tau.clamp(-search.farthest, search.farthest);
+fn uphill(intervals: &Intervals, near: Peak, by: &Settings) -> Result<Peak, usize> {
+    let within = |tau: f64| tau.clamp(-by.farthest, by.farthest);
     let mut peak = near;
     while peak.is_at_end {
-        let around = [within(peak.tau - UPHILL), within(peak.tau + UPHILL)];
-        let next = Peak::within(intervals, around, SEARCH_STEP, MIN_INTERVALS)?;
+        let around = [within(peak.tau - by.uphill_reach), within(peak.tau + by.uphill_reach)];
+        let next = Peak::within(intervals, around, by.step, by.min_intervals)?;
         let rises = next.fit.correlation.abs() > peak.fit.correlation.abs();
         peak = Peak { is_at_end: next.is_at_end, ..if rises { next } else { peak } };
         if !rises {
@@ -304,17 +258,16 @@ fn uphill(intervals: &Intervals, near: Peak, search: &ClockSearch) -> Result<Pea
 }
 
 /// A clear peak beyond the search: of clocks that were set by hand, or in another time zone.
-fn farthest(intervals: &Intervals, search: &ClockSearch) -> Option<Peak> {
-    let needed = share(intervals.count());
-    let range = [-search.last, search.last];
-    let far = Peak::of_some(intervals, range, FAR_STEP, needed).ok()?;
-    let fine = around(intervals, far, needed).ok()?;
-    (fine.fit.correlation >= CLEAR_CORRELATION && !fine.is_at_end).then_some(fine)
+fn farthest(intervals: &Intervals, by: &Settings) -> Option<Peak> {
+    let needed = share(intervals.count(), by);
+    let far = Peak::of_some(intervals, [-by.last, by.last], needed, by).ok()?;
+    let fine = around(intervals, far, needed, by).ok()?;
+    (fine.fit.correlation >= by.min_clear_correlation && !fine.is_at_end).then_some(fine)
 }
 
 /// Part of the variance of the turning of a recording, 1 − r², that a clock offset leaves, s.
-pub fn left_at(recording: &Recording, tau: f64) -> f64 {
-    let intervals = Intervals::new(&with_poses_every(recording, MIN_POSE_INTERVAL));
+pub fn left_at(recording: &Recording, tau: f64, settings: &Settings) -> f64 {
+    let intervals = Intervals::new(recording, settings);
     1.0 - intervals.fit(tau, 1).correlation.powi(2)
 }
 
@@ -323,33 +276,34 @@ pub fn left_at(recording: &Recording, tau: f64) -> f64 {
 /// # Errors
 /// [`Error::NotEstimable`] without enough turning that changes, [`Error::ClockFar`] with the best
 /// offset at an end of the search, [`Error::Swapped`] with left and right swapped.
-pub fn clock_offset(recording: &Recording, search: &ClockSearch) -> Result<ClockOffset, Error> {
+pub fn clock_offset(recording: &Recording, settings: &Settings) -> Result<ClockOffset, Error> {
     let refuse = |reason: String| Error::NotEstimable { what: "the clock offset", reason };
-    let intervals = Intervals::new(&with_poses_every(recording, MIN_POSE_INTERVAL));
-    let Peak { tau: coarse, fit, is_at_end } = highest(&intervals, search).map_err(|most| {
-        refuse(format!("{most} pose intervals with readings, {MIN_INTERVALS} needed"))
+    let &Settings { min_intervals, min_correlation, max_error, farthest, last, .. } = settings;
+    let intervals = Intervals::new(recording, settings);
+    let Peak { tau: coarse, fit, is_at_end } = highest(&intervals, settings).map_err(|most| {
+        refuse(format!("{most} pose intervals with readings, {min_intervals} needed"))
     })?;
     let Fit { correlation, count, .. } = fit;
-    if correlation.abs() < MIN_CORRELATION {
-        return Err(Error::Unlike { correlation, count, needed: MIN_CORRELATION });
+    if correlation.abs() < min_correlation {
+        return Err(Error::Unlike { correlation, count, needed: min_correlation });
     }
     if correlation < 0.0 {
-        return Err(Error::Swapped { correlation, farthest: search.last });
+        return Err(Error::Swapped { correlation, farthest: last });
     }
     if is_at_end {
-        return Err(Error::ClockFar { tau: coarse, farthest: search.farthest });
+        return Err(Error::ClockFar { tau: coarse, farthest });
     }
-    let Some(moments) = Moments::new(&intervals, coarse) else {
+    let Some(moments) = Moments::new(&intervals, coarse, settings) else {
         return Err(refuse("the readings end too close to the pose intervals".to_owned()));
     };
     let Some(tau) = moments.root() else {
         return Err(refuse(format!("the correlation has no clear peak around {coarse:.2} s")));
     };
     let Estimate { gain, standard_error } = moments.estimate(tau);
-    let is_known = standard_error < MAX_ERROR;
+    let is_known = standard_error < max_error;
     if !is_known {
         return Err(refuse(format!(
-            "turning changes too rarely: {tau:.2} s would be open by more than {MAX_ERROR} s"
+            "turning changes too rarely: {tau:.2} s would be open by more than {max_error} s"
         )));
     }
     Ok(ClockOffset {

@@ -12,7 +12,7 @@ use crate::run_clocks::OtherClock;
 use crate::spin_test::SpinTest;
 use crate::weighting::SegmentNoise;
 use trackdyn_core::robust::quantile;
-use trackdyn_core::{PerSide, Side};
+use trackdyn_core::{PerSide, Side, settings_group};
 
 /// Standard errors by which two methods may differ.
 const MAX_ERRORS: f64 = 5.0;
@@ -64,13 +64,19 @@ const MAX_WAY_LEFT: f64 = 0.3;
 /// Smallest turn of the sensor that shows, rad: in turns, ICRs that are shifted turn the way, too.
 const MIN_MOUNT: f64 = 0.17;
 
-/// Part of the turning, and of the distance of the ICRs, that is left where poses are computed from
-/// the tracks: the time between readings, and rounding.
-const COMPUTED: f64 = 2e-3;
-
-/// Part of the gauge by which ICRs miss the tracks' centre-lines where poses are computed from the
-/// tracks. The slip of any contact longer than a point moves them further out.
-const MAX_OFF_CENTRE_LINES: f64 = 0.02;
+settings_group! {
+    /// By what poses are taken for computed from the tracks: they show no slip.
+    Settings {
+        /// Largest part of the turning, and of the distance of the ICRs, that is left.
+        max_left: f64 = 2e-3, "", [0.0, 0.1],
+            "The time between readings, and rounding.",
+            "Lower: such poses are diagnosed; higher: exact ones are refused.";
+        /// Largest distance of the ICRs from the tracks' centre-lines.
+        max_off_centre_lines: f64 = 0.02, "gauge", [0.0, 0.1],
+            "Any contact longer than a point moves them further out.",
+            "Lower: such poses are diagnosed; higher: short contacts are refused.";
+    }
+}
 
 /// Something that contradicts a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -158,9 +164,10 @@ impl Contradiction {
         observations: &Observations,
         noise: Option<&SegmentNoise>,
         gauge: f64,
+        settings: &Settings,
     ) -> Vec<Self> {
         let left = LeftOver::of(&fit.parameters, observations, noise);
-        if is_computed(&fit.parameters, &left, gauge) {
+        if is_computed(&fit.parameters, &left, gauge, settings) {
             return vec![Self::WheelOdometry { left: left.turning }];
         }
         let mut found = Self::of_parameters(&fit.parameters, &fit.steering_efficiency(gauge));
@@ -298,15 +305,16 @@ fn spread_of_ways(observations: &Observations) -> f64 {
 /// Whether poses are those of a differential drive: ICRs on the tracks' centre-lines; or nothing
 /// left, and ICRs on one line through the middle, as far from it on either side; or never a move to
 /// the side.
-fn is_computed(parameters: &Parameters, left: &LeftOver, gauge: f64) -> bool {
+fn is_computed(parameters: &Parameters, left: &LeftOver, gauge: f64, settings: &Settings) -> bool {
+    let &Settings { max_left, max_off_centre_lines } = settings;
     let [x_l, x_r, y, ..] = parameters.0;
     let gap = x_r - x_l;
     let is_ideal = [x_l + gauge / 2.0, x_r - gauge / 2.0, y]
         .into_iter()
-        .all(|off| off.abs() < MAX_OFF_CENTRE_LINES * gauge);
-    let is_level = y.abs() < COMPUTED * gap;
-    let is_even = (x_l + x_r).abs() < COMPUTED * gap;
+        .all(|off| off.abs() < max_off_centre_lines * gauge);
+    let is_level = y.abs() < max_left * gap;
+    let is_even = (x_l + x_r).abs() < max_left * gap;
     is_ideal
-        || is_level && is_even && left.turning < COMPUTED
-        || is_level && left.sideways < COMPUTED
+        || is_level && is_even && left.turning < max_left
+        || is_level && left.sideways < max_left
 }

@@ -4,29 +4,38 @@
 //! pose. Then a place or a heading is not the same in two runs. Such runs begin near one pose and
 //! end far from it, and leave the robot no time to drive back.
 
-use trackdyn_core::Pose;
 use trackdyn_core::robust::{median, quantile};
+use trackdyn_core::{Pose, settings_group};
 use trackdyn_recording::{PoseFrame, PoseSample, Recording, Run};
 
-/// Fewest runs that follow one another, to tell.
-const MIN_PAIRS: usize = 5;
-
-/// Largest spread of the first poses over that of the last ones, of runs with frames of their own.
-const MAX_SPREAD: f64 = 0.25;
-
-/// Largest time between two runs, over that of the way back at the usual speed.
-const MAX_PAUSE: f64 = 2.0;
+settings_group! {
+    /// When runs have frames of their own, where the recording does not say.
+    Settings {
+        /// Fewest runs that follow one another.
+        min_pairs: usize = 5, "", [1.0, 1e6],
+            "Fewer begin near one pose by chance.",
+            "Lower: places of one world are thrown away.";
+        /// Largest spread of the first poses over that of the last ones.
+        max_spread: f64 = 0.25, "", [0.0, 1.0],
+            "First poses then lie together.",
+            "Higher: places of one world are thrown away; lower: those of several are mixed.";
+        /// Largest time between two runs, over that of the way back at the usual speed.
+        max_pause: f64 = 2.0, "", [0.0, 100.0],
+            "Nobody drives back in less.",
+            "Higher: robots that are driven back lose their world.";
+    }
+}
 
 /// Whether all runs share one frame: as stated, or else as their ends and beginnings show.
-pub fn share_a_frame(recording: &Recording) -> bool {
+pub fn share_a_frame(recording: &Recording, settings: &Settings) -> bool {
     match recording.pose_frame() {
         Some(stated) => stated == PoseFrame::World,
-        None => !begin_anew(recording),
+        None => !begin_anew(recording, settings),
     }
 }
 
 /// Whether runs begin near one pose though nothing leads back to it.
-fn begin_anew(recording: &Recording) -> bool {
+fn begin_anew(recording: &Recording, settings: &Settings) -> bool {
     let mut runs: Vec<&[PoseSample]> = recording.runs().iter().map(Run::poses).collect();
     runs.retain(|poses| poses.len() > 1);
     runs.sort_by(|a, b| a[0].t.total_cmp(&b[0].t));
@@ -37,7 +46,7 @@ fn begin_anew(recording: &Recording) -> bool {
         .map(|pair| [pair[0][1], pair[1][0]])
         .filter(|[last, first]| first.t > last.t)
         .collect();
-    if pairs.len() < MIN_PAIRS || pairs.len() + 1 < runs.len() {
+    if pairs.len() < settings.min_pairs || pairs.len() + 1 < runs.len() {
         return false;
     }
     let spread = |which: usize| -> Option<[f64; 2]> {
@@ -45,7 +54,7 @@ fn begin_anew(recording: &Recording) -> bool {
         spread(&poses.collect::<Vec<_>>())
     };
     let (Some(first), Some(last)) = (spread(0), spread(1)) else { return false };
-    let is_narrow = first.iter().zip(last).all(|(first, last)| *first < MAX_SPREAD * last);
+    let is_narrow = first.iter().zip(last).all(|(first, last)| *first < settings.max_spread * last);
     let speeds = runs.iter().flat_map(|poses| poses.windows(2)).map(|pair| {
         let step = pair[0].pose.relative(&pair[1].pose);
         step.x.hypot(step.y) / (pair[1].t - pair[0].t)
@@ -56,7 +65,7 @@ fn begin_anew(recording: &Recording) -> bool {
         (first.t - last.t) * speed / way.x.hypot(way.y)
     });
     let pause = median(&mut pauses.collect::<Vec<_>>());
-    is_narrow && pause.is_some_and(|pause| pause < MAX_PAUSE)
+    is_narrow && pause.is_some_and(|pause| pause < settings.max_pause)
 }
 
 /// How far poses scatter about their median: position (m) and yaw (rad), the upper quartile.
@@ -101,14 +110,18 @@ mod tests {
         whole.with_runs(cut.collect())
     }
 
+    fn in_one_frame(recording: &Recording) -> bool {
+        share_a_frame(recording, &Settings::default())
+    }
+
     #[test]
     fn windows_that_begin_at_the_origin_have_frames_of_their_own() {
-        assert!(share_a_frame(&windows(false, 0.0)), "cut from one drive");
-        assert!(!share_a_frame(&windows(true, 0.0)), "begun anew");
-        assert!(share_a_frame(&windows(true, 60.0)), "driven back to the start each time");
+        assert!(in_one_frame(&windows(false, 0.0)), "cut from one drive");
+        assert!(!in_one_frame(&windows(true, 0.0)), "begun anew");
+        assert!(in_one_frame(&windows(true, 60.0)), "driven back to the start each time");
         let stated = windows(true, 0.0).with_pose_frame(Some(PoseFrame::World));
-        assert!(share_a_frame(&stated), "as stated");
+        assert!(in_one_frame(&stated), "as stated");
         let stated = windows(false, 0.0).with_pose_frame(Some(PoseFrame::Run));
-        assert!(!share_a_frame(&stated), "as stated");
+        assert!(!in_one_frame(&stated), "as stated");
     }
 }

@@ -27,9 +27,11 @@ mod between;
 mod fit;
 mod level;
 mod quiet;
+mod settings;
 mod turned;
 
 pub use between::Filled;
+pub use settings::Settings;
 
 use fit::{Drive, Fit};
 use std::fmt;
@@ -38,29 +40,6 @@ use trackdyn_core::real;
 use trackdyn_core::robust::{median, usual_interval};
 use trackdyn_recording::{Recording, Run, UncheckedRun};
 use turned::Turned;
-
-/// Fewest poses beside readings of the gyroscope.
-const MIN_POSES: usize = 60;
-
-/// Least share of the poses that have readings around them: weights are those of one kind of poses.
-/// A pose at either end of a run mostly has none, one of seven in runs of 14 poses.
-const MIN_SHARE: f64 = 0.75;
-
-/// Fewest poses in a row that are smoothed.
-const MIN_ROW: usize = 8;
-
-/// A change of the residual between two poses that is longer, in standard deviations, is a jump of
-/// the poses.
-const MIN_JUMP: f64 = 6.0;
-
-/// Largest error that is left of that of the poses for a gyroscope to serve.
-const MAX_ERROR_RATIO: f64 = 0.8;
-
-/// Largest part of the noise of a gyroscope by which poses part from it that have their yaw of it.
-const MAX_OWN: f64 = 0.5;
-
-/// Scales that a gyroscope about the vertical may have, with its tilt.
-const SCALES: [f64; 2] = [0.8, 1.25];
 
 /// What a gyroscope tells of the poses of a recording.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,10 +78,12 @@ pub enum Unfit {
     #[error("the recording has no readings of a gyroscope in a row")]
     NoReadings,
     /// Too few poses beside its readings.
-    #[error("{found} poses have readings of the gyroscope around them, {MIN_POSES} needed")]
+    #[error("{found} poses have readings of the gyroscope around them, {needed} needed")]
     TooFewPoses {
         /// Those that have.
         found: usize,
+        /// As many are needed.
+        needed: usize,
     },
     /// Too few poses in a row to tell errors of the poses from its own.
     #[error(
@@ -115,14 +96,17 @@ pub enum Unfit {
     },
     /// Many poses have no readings around them.
     #[error(
-        "{found} of {of} poses have readings of the gyroscope around them, three of four needed: \
-         take the part that has (--time), or longer runs"
+        "{found} of {of} poses have readings of the gyroscope around them, {} needed: \
+         take the part that has (--time), or longer runs",
+        in_words(*.needed)
     )]
     OfAPart {
         /// Those that have.
         found: usize,
         /// All.
         of: usize,
+        /// Share of all that is needed, 1.
+        needed: f64,
     },
     /// It is no better than the poses.
     #[error(
@@ -147,6 +131,12 @@ pub enum Unfit {
     },
 }
 
+/// A share as one says it.
+fn in_words(share: f64) -> String {
+    let is_usual = (share - 0.75).abs() < f64::EPSILON;
+    if is_usual { "three of four".to_owned() } else { format!("{:.0} %", 100.0 * share) }
+}
+
 /// A recording whose gyroscope corrects the yaw of its poses.
 #[derive(Clone, Debug)]
 pub struct Corrected {
@@ -156,6 +146,8 @@ pub struct Corrected {
     pub gyroscope: Gyroscope,
     /// Poses that are smoothed in a row: the index of their run, and theirs in it.
     rows: Vec<(usize, Range<usize>)>,
+    /// Fewest readings in a row.
+    min_readings: usize,
 }
 
 /// The recording with the yaw of its poses corrected by its gyroscope. `tau` is the clock offset of
@@ -163,13 +155,18 @@ pub struct Corrected {
 ///
 /// # Errors
 /// Why the gyroscope does not serve.
-pub fn with_gyroscope(recording: &Recording, tau: f64) -> Result<Corrected, Unfit> {
-    let turned: Vec<Vec<Turned>> = recording.runs().iter().map(Turned::of_run).collect();
+pub fn with_gyroscope(
+    recording: &Recording,
+    tau: f64,
+    settings: &Settings,
+) -> Result<Corrected, Unfit> {
+    let turned = |run: &Run| Turned::of_run(run, settings.min_readings);
+    let turned: Vec<Vec<Turned>> = recording.runs().iter().map(turned).collect();
     if turned.iter().all(Vec::is_empty) {
         return Err(Unfit::NoReadings);
     }
     let jumps = vec![Vec::new(); turned.len()];
-    let drive = Drive { recording, turned: &turned, jumps };
+    let drive = Drive { recording, turned: &turned, jumps, settings };
     let lag = Fit::best_lag(&drive, tau)?;
     // A jump hides in a fit across it.
     let jumps = jumps_of(&drive, &Fit::near(&drive, lag)?);
@@ -179,16 +176,17 @@ pub fn with_gyroscope(recording: &Recording, tau: f64) -> Result<Corrected, Unfi
 
 /// The recording with the yaw that a fit gives.
 fn corrected(drive: &Drive, fit: &Fit) -> Result<Corrected, Unfit> {
+    let &Settings { min_poses, min_share, scales, max_own, max_error_ratio, .. } = drive.settings;
     let rows = drive.rows(fit.lag);
     let found: usize = rows.iter().map(|row| row.poses.len()).sum();
-    if found < MIN_POSES {
-        return Err(Unfit::TooFewPoses { found });
+    if found < min_poses {
+        return Err(Unfit::TooFewPoses { found, needed: min_poses });
     }
     let of = drive.recording.runs().iter().map(|run| run.poses().len()).sum();
-    if real(found) < MIN_SHARE * real(of) {
-        return Err(Unfit::OfAPart { found, of });
+    if real(found) < min_share * real(of) {
+        return Err(Unfit::OfAPart { found, of, needed: min_share });
     }
-    if fit.scale < SCALES[0] || fit.scale > SCALES[1] {
+    if fit.scale < scales[0] || fit.scale > scales[1] {
         return Err(Unfit::Scale { scale: fit.scale });
     }
     let noise = quiet::walk(drive);
@@ -198,7 +196,7 @@ fn corrected(drive: &Drive, fit: &Fit) -> Result<Corrected, Unfit> {
     let runs = drive.recording.runs().iter().cloned();
     let mut runs: Vec<UncheckedRun> = runs.map(Run::into_rows).collect();
     for (row, residual) in rows.iter().zip(fit.residuals(&rows)) {
-        let smooth = fit.level.smoothed(&row.times, &residual);
+        let smooth = fit.level.smoothed(&row.times, &residual, drive.settings.max_innovation);
         // The poses say where the yaw begins.
         let mean = smooth.iter().sum::<f64>() / real(smooth.len());
         let poses = &mut runs[row.run].poses.samples[row.poses.clone()];
@@ -213,8 +211,8 @@ fn corrected(drive: &Drive, fit: &Fit) -> Result<Corrected, Unfit> {
         (of_poses.sqrt(), (noise * (1.0 - share)).max(noise.min(of_poses) * share).sqrt());
     // Poses that part from it by less than its own noise have their yaw of it: it adds what lies
     // between them.
-    let is_its_own = fit.level.of_change(1.0) < MAX_OWN * noise;
-    if with_it > MAX_ERROR_RATIO * without && !is_its_own {
+    let is_its_own = fit.level.of_change(1.0) < max_own * noise;
+    if with_it > max_error_ratio * without && !is_its_own {
         return Err(Unfit::NoBetter { with_it, without });
     }
     let gyroscope = Gyroscope {
@@ -228,13 +226,14 @@ fn corrected(drive: &Drive, fit: &Fit) -> Result<Corrected, Unfit> {
     let runs = runs.into_iter().map(|rows| Run::new(rows, &mut Vec::new()));
     let recording = drive.recording.with_runs(runs.collect());
     let rows = rows.iter().map(|row| (row.run, row.poses.clone())).collect();
-    Ok(Corrected { recording, gyroscope, rows })
+    Ok(Corrected { recording, gyroscope, rows, min_readings: drive.settings.min_readings })
 }
 
 /// Indices of the poses of each run at which what a fit leaves jumps, and stays where it went. A
 /// change no larger than what the robot turns within a pose interval is no jump: a stamp may be
 /// late by as much.
 fn jumps_of(drive: &Drive, fit: &Fit) -> Vec<Vec<usize>> {
+    let &Settings { min_row, min_jump, .. } = drive.settings;
     let middle = |of: &[f64]| median(&mut of.to_vec()).unwrap_or(0.0);
     let mut jumps = vec![Vec::new(); drive.turned.len()];
     let rows = drive.rows(fit.lag);
@@ -244,9 +243,9 @@ fn jumps_of(drive: &Drive, fit: &Fit) -> Vec<Vec<usize>> {
             let change = residual[k] - residual[k - 1];
             let expected = fit.level.of_change(row.times[k] - row.times[k - 1]).sqrt();
             let late = usual * fit.rate(row, k - 1).abs().max(fit.rate(row, k).abs());
-            let before = &residual[k.saturating_sub(MIN_ROW)..k];
-            let after = &residual[k..residual.len().min(k + MIN_ROW)];
-            let is_long = change.abs() > MIN_JUMP * expected + late;
+            let before = &residual[k.saturating_sub(min_row)..k];
+            let after = &residual[k..residual.len().min(k + min_row)];
+            let is_long = change.abs() > min_jump * expected + late;
             // An outlier comes back.
             let stays = (middle(after) - middle(before)).abs() > change.abs() / 2.0;
             if is_long && stays {

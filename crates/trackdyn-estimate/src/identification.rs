@@ -17,9 +17,9 @@ use crate::run_clocks::OtherClock;
 use crate::scatter::scatter;
 use crate::sensor::Nuisance;
 use crate::separation::Separation;
-use crate::spin_test::{SpinTest, spin_test};
+use crate::spin_test::SpinTest;
 use crate::weighting::{SegmentNoise, Weighting};
-use crate::{Clock, SegmentOptions};
+use crate::{Clock, SegmentOptions, clock, contradiction, noise, spin_test};
 use std::borrow::Cow;
 use std::ops::ControlFlow;
 use trackdyn_model::Kinematics;
@@ -42,6 +42,14 @@ pub struct Options {
     pub yaw_scale: f64,
     /// The genetic algorithm.
     pub genetic: GeneticOptions,
+    /// How the clock offset is found.
+    pub clock: clock::Settings,
+    /// How noise is measured.
+    pub noise: noise::Settings,
+    /// Which driving tells the distance of the ICRs by itself.
+    pub spin: spin_test::Settings,
+    /// By what poses are taken for computed from the tracks.
+    pub computed: contradiction::Settings,
 }
 
 impl Options {
@@ -54,6 +62,10 @@ impl Options {
             nuisances: Vec::new(),
             yaw_scale: 0.0,
             genetic: GeneticOptions::default(),
+            clock: clock::Settings::default(),
+            noise: noise::Settings::default(),
+            spin: spin_test::Settings::default(),
+            computed: contradiction::Settings::default(),
         }
     }
 }
@@ -148,7 +160,7 @@ pub fn identify_unless_stopped(
     let Seen { observations, spin_test, response, .. } = &seen;
     let lever = options.gauge / 2.0;
     let other_clock = match seen.clock {
-        Clock::Estimated(offset) => OtherClock::of(recording, offset.tau),
+        Clock::Estimated(offset) => OtherClock::of(recording, offset.tau, &options.clock),
         Clock::Given(_) | Clock::Unknown { .. } => None,
     };
     let fit = |free: Free| -> Option<Fit> {
@@ -166,8 +178,9 @@ pub fn identify_unless_stopped(
             let spin = spin_test.as_ref().ok();
             let noise = seen.known_noise();
             let genetic = Some(&genetic_estimate);
+            let by = &options.computed;
             let mut found =
-                Contradiction::of_motions(estimate, genetic, spin, observations, noise, gauge);
+                Contradiction::of_motions(estimate, genetic, spin, observations, noise, gauge, by);
             found.extend(Contradiction::of_response(estimate, response.as_ref()));
             found.extend(other_clock.map(Contradiction::RunClock));
             found
@@ -234,8 +247,8 @@ pub fn contradictions(
     let seen = Seen::of(recording, options)?;
     let (estimate, _) = seen.least_squares(Free::Icrs);
     let (spin, noise) = (seen.spin_test.as_ref().ok(), seen.known_noise());
-    let (observations, gauge) = (&seen.observations, options.gauge);
-    Ok(Contradiction::of_motions(&estimate?, None, spin, observations, noise, gauge))
+    let (observations, gauge, by) = (&seen.observations, options.gauge, &options.computed);
+    Ok(Contradiction::of_motions(&estimate?, None, spin, observations, noise, gauge, by))
 }
 
 /// What a recording shows before anything is fitted to it.
@@ -266,13 +279,13 @@ fn too_few(recording: &Recording, observations: &Observations, options: &Options
 
 impl<'a> Seen<'a> {
     fn of(recording: &'a Recording, options: &'a Options) -> Result<Self, Error> {
-        let clock = Clock::of(recording, options.tau)?;
+        let clock = Clock::of(recording, options.tau, &options.clock)?;
         let tau = clock.tau();
         let tau_margin =
             if options.nuisances.contains(&Nuisance::TimeOffset) { TAU_MARGIN } else { 0.0 };
         let segments = SegmentOptions { tau, tau_margin, ..SegmentOptions::default() };
         let response = Response::of(recording, tau);
-        let encoders = of_encoders(recording);
+        let encoders = of_encoders(recording, &options.noise);
         let applied = response.as_ref().and_then(|response| response.applied(recording));
         let (recording, segments) = match applied {
             Some(weighted) => {
@@ -288,8 +301,8 @@ impl<'a> Seen<'a> {
         if observations.len() < needed {
             return Err(too_few(&recording, &observations, options));
         }
-        let noise = noise_beside(&recording, tau, encoders);
-        let spin_test = spin_test(&observations, options.gauge);
+        let noise = noise_beside(&recording, tau, encoders, &options.noise);
+        let spin_test = spin_test(&observations, options.gauge, &options.spin);
         // Only the weights of the encoders' noise depend on it, and roughly: its size is enough.
         let gap = spin_test.as_ref().map_or(1.5 * options.gauge, |spin| spin.gap);
         let stated = recording.stated_noise().map(SegmentNoise::stated);

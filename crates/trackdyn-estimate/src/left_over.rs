@@ -5,6 +5,7 @@
 //! of the motion: a robot that seldom turns shows its turning in few. They are chosen by the
 //! prediction: where the robot is slow, those with most observed motion are those with most noise.
 
+use crate::blocks::Blocks;
 use crate::observations::{Observation, Observations};
 use crate::parameters::Parameters;
 use crate::prediction::{Lanes, Prediction};
@@ -90,7 +91,7 @@ impl LeftOver {
     ) -> Option<[f64; 2]> {
         let predictions = Lanes::new(observations).predict(parameters);
         let segments = observations.segments();
-        let ranges = observations.ranges(&observations.blocks());
+        let ranges = observations.ranges(&observations.blocks(Blocks::MIN_WHOLE_RUNS));
         let mut ways: Vec<f64> = predictions.iter().map(|by| by.motion[0].abs()).collect();
         let usual = quantile(&mut ways, 0.75)?;
         let lefts: Vec<f64> = ranges

@@ -24,10 +24,12 @@ use trackdyn_recording::Recording;
 
 mod encoder;
 mod scatter;
+mod settings;
 mod stamps;
 mod triples;
 
 pub use scatter::scatter;
+pub use settings::Settings;
 
 /// Noise of a recording; what the recording cannot show is absent.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,13 +110,16 @@ impl fmt::Display for Method {
 }
 
 /// Measures the noise; `tau` is the clock offset of the poses, s ([`clock`](crate::clock)).
-pub fn noise(recording: &Recording, tau: f64) -> Noise {
-    noise_beside(recording, tau, of_encoders(recording))
+pub fn noise(recording: &Recording, tau: f64, settings: &Settings) -> Noise {
+    noise_beside(recording, tau, of_encoders(recording, settings), settings)
 }
 
 /// Noise of the encoder of each side; none where its speeds are commands, or too few.
-pub(crate) fn of_encoders(recording: &Recording) -> PerSide<Option<EncoderNoise>> {
-    PerSide::from_fn(|side| encoder::noise(recording, side))
+pub(crate) fn of_encoders(
+    recording: &Recording,
+    settings: &Settings,
+) -> PerSide<Option<EncoderNoise>> {
+    PerSide::from_fn(|side| encoder::noise(recording, side, settings))
 }
 
 /// The noise beside that of the encoders, which is known: a filter of their speeds changes it.
@@ -122,11 +127,12 @@ pub(crate) fn noise_beside(
     recording: &Recording,
     tau: f64,
     encoders: PerSide<Option<EncoderNoise>>,
+    settings: &Settings,
 ) -> Noise {
     let deviation = PerSide::from_fn(|side: Side| encoders[side].map(|noise| noise.deviation));
     Noise {
-        standing: triples::standing(recording, tau),
-        moving: triples::moving(recording, tau, deviation),
+        standing: triples::standing(recording, tau, settings),
+        moving: triples::moving(recording, tau, deviation, settings),
         encoders,
     }
 }

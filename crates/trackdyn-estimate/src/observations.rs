@@ -205,14 +205,15 @@ impl Observations {
     }
 
     /// What counts as independent: the runs with segments, from the first to the last one, or
-    /// pieces of them.
-    pub fn blocks(&self) -> Blocks {
+    /// pieces of them where they are fewer than `min_whole_runs`.
+    pub fn blocks(&self, min_whole_runs: usize) -> Blocks {
         let runs = self.segments.chunk_by(|a, b| a.run == b.run);
-        Blocks::new(runs.map(|segments| {
+        let extents = runs.map(|segments| {
             let (first, last) = (&segments[0], &segments[segments.len() - 1]);
             let (start, end) = (first.start, last.start + last.duration);
             Extent { run: first.run, start, duration: end - start }
-        }))
+        });
+        Blocks::new(extents, min_whole_runs)
     }
 
     /// The segments of each block that has any.

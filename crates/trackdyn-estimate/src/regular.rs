@@ -12,41 +12,55 @@
 //! Journal of the American Statistical Association 74(368), 1979 (lines through neighbours).
 
 use std::ops::Range;
-use trackdyn_core::real;
+use trackdyn_core::{real, settings_group};
 use trackdyn_recording::{Recording, Run, UncheckedRun};
 
-/// Smallest number of neighbours on either side; then twice as many, and so on.
-const MIN_NEIGHBOURS: usize = 5;
-
-/// Smallest number of samples in a row that have an interval.
-const MIN_SAMPLES: usize = 4;
+settings_group! {
+    /// How the times at which samples were due are found from stamps that jitter.
+    Settings {
+        /// Fewest neighbours on either side by which a time is told; then twice as many, and so on.
+        min_neighbours: usize = 5, "", [1.0, 1e6],
+            "Fewer share their jitter.",
+            "Lower: jitter stays; higher: a wandering clock is not followed.";
+        /// Fewest samples in a row that have an interval.
+        min_samples: usize = 4, "", [3.0, 1e6],
+            "A line leaves two to judge it.",
+            "Higher: short rows keep their jitter.";
+        /// Change of the interval, as a share of the usual one, from which there is a gap.
+        min_gap: f64 = 0.5, "", [0.01, 10.0],
+            "A missing sample changes it by one.",
+            "Lower: jitter cuts rows; higher: gaps are bridged.";
+    }
+}
 
 /// The times at which samples were due, by a straight line through the stamps (s) of their
 /// neighbours; in the order of the stamps, as many as they.
-fn regular(stamps: &[f64]) -> Vec<f64> {
+fn regular(stamps: &[f64], settings: &Settings) -> Vec<f64> {
+    let stretches = stretches(stamps, settings).into_iter();
     let rows: Vec<Row> =
-        stretches(stamps).into_iter().map(|(at, _)| Row::new(&stamps[at])).collect();
+        stretches.map(|(at, _)| Row::new(&stamps[at], settings.min_samples)).collect();
     let longest = rows.iter().map(|row| row.off.len()).max().unwrap_or_default();
-    let doubled = std::iter::successors(Some(MIN_NEIGHBOURS), |neighbours| Some(2 * neighbours));
+    let fewest = settings.min_neighbours;
+    let doubled = std::iter::successors(Some(fewest), |neighbours| Some(2 * neighbours));
     // twice as many as there are on one side are all that there are on both
-    let tried = doubled.take_while(|neighbours| *neighbours < 2 * longest.max(MIN_NEIGHBOURS));
+    let tried = doubled.take_while(|neighbours| *neighbours < 2 * longest.max(fewest));
     let missed = |neighbours: usize| rows.iter().map(|row| row.missed(neighbours)).sum::<f64>();
     let best = tried.map(|neighbours| (missed(neighbours), neighbours));
-    let best = best.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(MIN_NEIGHBOURS, |best| best.1);
+    let best = best.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(fewest, |best| best.1);
     rows.iter().flat_map(|row| row.due(best)).collect()
 }
 
 /// Puts samples at the times at which they were due. `stamp` is where a sample keeps its time, s.
-pub fn regularise<S>(samples: &mut [S], stamp: impl Fn(&mut S) -> &mut f64) {
+pub fn regularise<S>(samples: &mut [S], stamp: impl Fn(&mut S) -> &mut f64, settings: &Settings) {
     let stamps: Vec<f64> = samples.iter_mut().map(|sample| *stamp(sample)).collect();
-    for (sample, due) in samples.iter_mut().zip(regular(&stamps)) {
+    for (sample, due) in samples.iter_mut().zip(regular(&stamps, settings)) {
         *stamp(sample) = due;
     }
 }
 
-/// The samples between gaps, by their indices, and the usual interval, s. Where the interval
-/// changes by half or more, there is a gap, and nothing is known across it.
-pub fn stretches(stamps: &[f64]) -> Vec<(Range<usize>, f64)> {
+/// The samples between gaps, by their indices, and the usual interval, s: nothing is known across a
+/// gap.
+pub fn stretches(stamps: &[f64], settings: &Settings) -> Vec<(Range<usize>, f64)> {
     let mut intervals: Vec<f64> = stamps.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let middle = intervals.len() / 2;
     let usual = if intervals.is_empty() {
@@ -55,7 +69,7 @@ pub fn stretches(stamps: &[f64]) -> Vec<(Range<usize>, f64)> {
         *intervals.select_nth_unstable_by(middle, f64::total_cmp).1
     };
     let mut start = 0;
-    let even = |a: &f64, b: &f64| ((b - a) / usual - 1.0).abs() < 0.5;
+    let even = |a: &f64, b: &f64| ((b - a) / usual - 1.0).abs() < settings.min_gap;
     let stretch = |stretch: &[f64]| {
         start += stretch.len();
         (start - stretch.len()..start, usual)
@@ -65,6 +79,8 @@ pub fn stretches(stamps: &[f64]) -> Vec<(Range<usize>, f64)> {
 
 /// Stamps in a row, as deviations from evenly spaced ones between the first and the last.
 struct Row {
+    /// Fewest samples of a line.
+    min_samples: usize,
     first: f64,
     interval: f64,
     off: Vec<f64>,
@@ -82,7 +98,7 @@ struct Line {
 }
 
 impl Row {
-    fn new(stamps: &[f64]) -> Self {
+    fn new(stamps: &[f64], min_samples: usize) -> Self {
         let (first, last) = (stamps[0], stamps[stamps.len() - 1]);
         let interval = (last - first) / real(stamps.len().max(2) - 1);
         let even = |k: usize| first + interval * real(k);
@@ -92,14 +108,14 @@ impl Row {
             let [sum, moment] = sums[k];
             sums.push([sum + off, moment + off * real(k)]);
         }
-        Self { first, interval, off, sums }
+        Self { min_samples, first, interval, off, sums }
     }
 
     /// The line through a sample and so many neighbours on either side, at that sample; none where
     /// they have no interval.
     fn line(&self, at: usize, neighbours: usize) -> Option<Line> {
         let near = at.saturating_sub(neighbours)..(at + neighbours + 1).min(self.off.len());
-        if near.len() < MIN_SAMPLES {
+        if near.len() < self.min_samples {
             return None;
         }
         let count = real(near.len());
@@ -132,10 +148,10 @@ impl Row {
 }
 
 /// A recording with its poses at the times at which they were due. The fingerprint stays.
-pub fn with_regular_poses(recording: &Recording) -> Recording {
+pub fn with_regular_poses(recording: &Recording, settings: &Settings) -> Recording {
     let regular = |run: &Run| {
         let mut rows: UncheckedRun = run.clone().into_rows();
-        regularise(&mut rows.poses.samples, |pose| &mut pose.t);
+        regularise(&mut rows.poses.samples, |pose| &mut pose.t, settings);
         Run::new(rows, &mut Vec::new())
     };
     recording.with_runs(recording.runs().iter().map(regular).collect())
@@ -149,6 +165,10 @@ mod tests {
     fn off(stamps: &[f64], due: &[f64]) -> f64 {
         let squares = stamps.iter().zip(due).map(|(stamp, due)| (stamp - due).powi(2));
         (squares.sum::<f64>() / real(due.len())).sqrt()
+    }
+
+    fn by_default(stamps: &[f64]) -> Vec<f64> {
+        regular(stamps, &Settings::default())
     }
 
     /// Numbers from −1 to 1 without any order.
@@ -166,14 +186,14 @@ mod tests {
         let due: Vec<f64> = (0..500).map(|k| clock(f64::from(k))).collect();
         let stamps: Vec<f64> =
             due.iter().zip(scattered(500)).map(|(due, by)| due + 0.01 * by).collect();
-        [off(&stamps, &due), off(&regular(&stamps), &due)]
+        [off(&stamps, &due), off(&by_default(&stamps), &due)]
     }
 
     #[test]
     fn even_stamps_stay_and_late_ones_come_nearer() {
         let even = |k: i32| 3.0 + 0.05 * f64::from(k);
         let stamps: Vec<f64> = (0..40).map(even).collect();
-        for (a, b) in stamps.iter().zip(regular(&stamps)) {
+        for (a, b) in stamps.iter().zip(by_default(&stamps)) {
             assert!((a - b).abs() < 1e-12);
         }
         // Late by turns, by up to 8 ms.
@@ -182,7 +202,7 @@ mod tests {
         let square = |stamps: &[f64]| -> f64 {
             (0..).zip(stamps).map(|(k, t)| (t - even(k) - 0.004).powi(2)).sum()
         };
-        let after = regular(&stamps);
+        let after = by_default(&stamps);
         assert!(square(&after) < square(&stamps) / 5.0, "{} {}", square(&after), square(&stamps));
     }
 
@@ -190,7 +210,7 @@ mod tests {
     #[test]
     fn stamps_of_the_epoch_stay() {
         let stamps: Vec<f64> = (0..40).map(|k| 1.7e9 + 0.05 * f64::from(k)).collect();
-        for (a, b) in stamps.iter().zip(regular(&stamps)) {
+        for (a, b) in stamps.iter().zip(by_default(&stamps)) {
             assert!((a - b).abs() < 1e-6);
         }
     }
@@ -216,9 +236,9 @@ mod tests {
     fn nothing_is_known_across_a_gap() {
         let gap = |k: i32| f64::from(k) * 0.05 + if k < 10 { 0.0 } else { 1.03 };
         let stamps: Vec<f64> = (0..20).map(gap).collect();
-        for (a, b) in stamps.iter().zip(regular(&stamps)) {
+        for (a, b) in stamps.iter().zip(by_default(&stamps)) {
             assert!((a - b).abs() < 1e-12, "{a} {b}");
         }
-        assert!(regular(&[]).is_empty());
+        assert!(by_default(&[]).is_empty());
     }
 }

@@ -25,6 +25,7 @@
 
 mod rows;
 
+use crate::noise::{self, of_encoders};
 use crate::{Blocks, Extent, Interval};
 use nalgebra::{DMatrix, DVector};
 use rows::{Delays, Part, Rows, weighted};
@@ -195,7 +196,7 @@ fn gain(one: &Fit, several: &Fit) -> f64 {
 
 /// Whether the speeds of both sides are commands: they are held for longer than a measured speed.
 fn are_held(recording: &Recording) -> bool {
-    let PerSide { left, right } = crate::noise::of_encoders(recording);
+    let PerSide { left, right } = of_encoders(recording, &noise::Settings::default());
     left.is_none() && right.is_none()
 }
 

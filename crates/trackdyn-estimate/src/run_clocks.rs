@@ -5,7 +5,7 @@
 //! A run has a clock of its own if its own offset leaves at most a quarter of the variance of its
 //! turning, 1 − r², that the offset of all runs leaves.
 
-use crate::clock::{ClockSearch, clock_offset, left_at};
+use crate::clock::{self, clock_offset, left_at};
 use rayon::prelude::*;
 use trackdyn_recording::{Recording, Run};
 
@@ -34,27 +34,27 @@ pub struct OtherClock {
 
 impl OtherClock {
     /// The run whose clock offset differs most from that of all runs, s; none where none differs.
-    pub fn of(recording: &Recording, of_all: f64) -> Option<Self> {
+    pub fn of(recording: &Recording, of_all: f64, by: &clock::Settings) -> Option<Self> {
         if recording.runs().len() < 2 {
             return None;
         }
         let found =
-            recording.runs().par_iter().filter_map(|run| Self::of_run(recording, run, of_all));
+            recording.runs().par_iter().filter_map(|run| Self::of_run(recording, run, of_all, by));
         let found: Vec<Self> = found.collect();
         found.into_iter().max_by(|a, b| a.difference().total_cmp(&b.difference()))
     }
 
-    fn of_run(recording: &Recording, run: &Run, of_all: f64) -> Option<Self> {
+    fn of_run(recording: &Recording, run: &Run, of_all: f64, by: &clock::Settings) -> Option<Self> {
         let [first, last] = [run.poses().first()?, run.poses().last()?];
         if last.t - first.t < MIN_DURATION {
             return None;
         }
         let alone = recording.with_runs(vec![run.clone()]);
-        let own = clock_offset(&alone, &ClockSearch::default()).ok()?;
+        let own = clock_offset(&alone, by).ok()?;
         let found = Self { run: run.id(), tau: own.tau, of_all };
         let is_another = found.difference() > MIN_DIFFERENCE
             && own.correlation >= MIN_CORRELATION
-            && 1.0 - own.correlation.powi(2) <= MAX_LEFT * left_at(&alone, of_all);
+            && 1.0 - own.correlation.powi(2) <= MAX_LEFT * left_at(&alone, of_all, by);
         is_another.then_some(found)
     }
 
@@ -86,8 +86,9 @@ mod tests {
             Run::new(rows, &mut Vec::new())
         });
         let recording = recording.with_runs(runs.collect());
-        let tau = Clock::of(&recording, None).expect("it turns").tau();
-        OtherClock::of(&recording, tau)
+        let by = clock::Settings::default();
+        let tau = Clock::of(&recording, None, &by).expect("it turns").tau();
+        OtherClock::of(&recording, tau, &by)
     }
 
     #[test]

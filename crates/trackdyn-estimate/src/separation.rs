@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::gauss_newton::Loss;
 use crate::observations::Observations;
 use crate::response::Response;
-use crate::{Clock, Interval, SegmentOptions};
+use crate::{Blocks, Clock, Interval, SegmentOptions, clock};
 use nalgebra::{Matrix2, Vector2};
 use trackdyn_core::real;
 use trackdyn_core::robust::deviation_about_zero;
@@ -88,7 +88,7 @@ impl Turning {
     /// # Errors
     /// Those of [`Clock::of`] and [`Separation::of_motions`].
     pub fn of(recording: &Recording, tau: Option<f64>) -> Result<Self, Error> {
-        let clock = Clock::of(recording, tau)?;
+        let clock = Clock::of(recording, tau, &clock::Settings::default())?;
         let options = SegmentOptions { tau: clock.tau(), ..SegmentOptions::default() };
         let observations = Observations::new(recording, &options);
         let mut separation = Separation::of_motions(&observations)?;
@@ -119,7 +119,10 @@ impl Separation {
     /// # Errors
     /// [`Error::NotEstimable`] where the robot turns by less than half a turn in all.
     pub fn of_motions(observations: &Observations) -> Result<Self, Error> {
-        let ranges = observations.ranges(&observations.blocks()).into_iter().enumerate();
+        let ranges = observations
+            .ranges(&observations.blocks(Blocks::MIN_WHOLE_RUNS))
+            .into_iter()
+            .enumerate();
         let turns: Vec<Turn> = ranges
             .flat_map(|(group, range)| {
                 observations.segments()[range].iter().map(move |segment| {

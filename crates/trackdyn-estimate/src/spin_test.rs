@@ -1,15 +1,25 @@
 //! The spin test: χ from turning on the spot, eq. (16).
 
-use crate::Interval;
 use crate::error::Error;
 use crate::observations::Observations;
+use crate::{Blocks, Interval};
+use std::f64::consts::PI;
 use std::ops::Range;
+use trackdyn_core::settings_group;
 
-/// Smallest yaw of a spin test in all, rad: half a turn.
-const MIN_YAW: f64 = std::f64::consts::PI;
-
-/// Smallest ratio of the slower to the faster track in a spin.
-const MIN_SPEED_RATIO: f64 = 0.5;
+settings_group! {
+    /// Which driving tells the distance of the ICRs by itself.
+    Settings {
+        /// Smallest yaw in all.
+        min_yaw: f64 = PI, "rad", [0.01, 1e4],
+            "Half a turn.",
+            "Lower: noise of the poses sets the distance.";
+        /// Smallest ratio of the slower to the faster track.
+        min_speed_ratio: f64 = 0.5, "", [0.0, 1.0],
+            "Tracks never match exactly.",
+            "Lower: turns count as spins.";
+    }
+}
 
 /// Result of the spin test.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,14 +47,14 @@ struct Sums {
 }
 
 impl Sums {
-    fn of(observations: &Observations, segments: Range<usize>) -> Self {
+    fn of(observations: &Observations, segments: Range<usize>, min_speed_ratio: f64) -> Self {
         let mut sums = Self::default();
         for segment in &observations.segments()[segments] {
             let travelled = observations.travelled(segment);
             let (left, right) = (travelled.left, travelled.right);
             let against = left * right < 0.0;
             if against
-                && left.abs().min(right.abs()) >= MIN_SPEED_RATIO * left.abs().max(right.abs())
+                && left.abs().min(right.abs()) >= min_speed_ratio * left.abs().max(right.abs())
             {
                 let sense = (right - left).signum();
                 sums.difference += sense * (right - left);
@@ -62,14 +72,19 @@ impl Sums {
 /// A symmetric vehicle: x_l = −x_r. Both senses of turning count.
 ///
 /// # Errors
-/// [`Error::NoSpin`] where they turn by less than half a turn in all.
-pub fn spin_test(observations: &Observations, gauge: f64) -> Result<SpinTest, Error> {
-    let ranges = observations.ranges(&observations.blocks());
-    let parts: Vec<Sums> =
-        ranges.into_iter().map(|segments| Sums::of(observations, segments)).collect();
-    let Sums { difference, yaw, segments } = Sums::of(observations, 0..observations.len());
-    if yaw < MIN_YAW {
-        return Err(Error::NoSpin { found_rad: yaw, needed_rad: MIN_YAW });
+/// [`Error::NoSpin`] where they turn too little in all.
+pub fn spin_test(
+    observations: &Observations,
+    gauge: f64,
+    settings: &Settings,
+) -> Result<SpinTest, Error> {
+    let &Settings { min_yaw, min_speed_ratio } = settings;
+    let ranges = observations.ranges(&observations.blocks(Blocks::MIN_WHOLE_RUNS)).into_iter();
+    let sums = |segments: Range<usize>| Sums::of(observations, segments, min_speed_ratio);
+    let parts: Vec<Sums> = ranges.map(sums).collect();
+    let Sums { difference, yaw, segments } = sums(0..observations.len());
+    if yaw < min_yaw {
+        return Err(Error::NoSpin { found_rad: yaw, needed_rad: min_yaw });
     }
     // χ = L φ / ∫ (V_r − V_l) dt, eq. (16)
     let gap = difference / yaw;

@@ -19,7 +19,7 @@ use crate::{
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use trackdyn_diagnose::{DiagnosisFile, Evidence, Options, Resampling, Status};
-use trackdyn_estimate::Contradiction;
+use trackdyn_estimate::{Contradiction, identification};
 use trackdyn_model::kinematics::Source;
 use trackdyn_model::{EffectId, VehicleFile};
 use trackdyn_recording::{Recording as Motion, RunList};
@@ -50,6 +50,21 @@ pub struct DiagnoseSettings {
     /// Laws of a user that are candidates beside the catalogue, see [`crate::law`]. Those of
     /// the vehicle are candidates anyway.
     pub laws: Vec<EffectId>,
+}
+
+impl DiagnoseSettings {
+    /// How poses are found that are no reference, of a vehicle with this gauge, m.
+    fn of_reference(&self, gauge: f64) -> identification::Options {
+        let method = &self.method;
+        identification::Options {
+            tau: self.tau,
+            clock: method.clock.clone(),
+            noise: method.measured_noise.clone(),
+            spin: method.spin.clone(),
+            computed: method.reference.clone(),
+            ..identification::Options::new(gauge)
+        }
+    }
 }
 
 /// Diagnoses recordings of one robot: where its model and they differ, and what physics was left
@@ -101,7 +116,8 @@ impl Prepared {
         settings: &DiagnoseSettings,
     ) -> Result<Self, Error> {
         let prepared = Self::of_any(recordings, vehicle, settings)?;
-        let found = recordings.iter().map(|one| one.expect_reference(vehicle, settings.tau));
+        let options = settings.of_reference(vehicle.gauge());
+        let found = recordings.iter().map(|one| one.expect_reference(&options));
         let contradictions = found.collect::<Result<Vec<_>, _>>()?.concat();
         Ok(Self { contradictions, ..prepared })
     }
@@ -124,12 +140,12 @@ impl Prepared {
                 settings.held_out.refuse_runs()?;
                 let evidence =
                     Evidence::of_points(points.points(), &settings.method).map_err(named)?;
-                let held_out = settings.held_out.of_points(evidence.runs().len());
+                let held_out = settings.held_out.of_points(evidence.runs().len(), &settings.method);
                 (evidence, held_out, None)
             }
             (None, Some(motion)) => {
                 let runs = recording.expect_positions()?.run_list().to_string();
-                let held_out = settings.held_out.of_motion(motion)?;
+                let held_out = settings.held_out.of_motion(motion, &settings.method)?;
                 let (gauge, by_gyroscope) = (vehicle.gauge(), settings.gyroscope);
                 let evidence =
                     Evidence::of_drive(motion, gauge, &settings.method, by_gyroscope, settings.tau);

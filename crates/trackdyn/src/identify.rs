@@ -136,12 +136,12 @@ impl<'a> Prepared<'a> {
             return Ok(Identification::Turning(Box::new(TurningFit { found, sourced })));
         }
         let options = Options {
-            gauge: gauge.metres(),
             tau: settings.tau,
             settle: settings.settle,
             nuisances: settings.nuisances(),
             yaw_scale: corrected.yaw_scale(),
             genetic: settings.genetic,
+            ..Options::new(gauge.metres())
         };
         let counter = Counter::new(observer, 2 * options.genetic.generations);
         let progress = |_| counter.advance("genetic algorithm", 1);

@@ -14,8 +14,9 @@ use crate::viewer::{self, Layers};
 use crate::{Change, Error, Figure, Gauge, Parameters, Part, Provenance, Recording};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use trackdyn_estimate::identification::Options;
 use trackdyn_estimate::odometry::{self, Comparison, ParameterSet, tum};
-use trackdyn_estimate::{Clock, Contradiction};
+use trackdyn_estimate::{Clock, Contradiction, clock};
 use trackdyn_model::kinematics::Source;
 use trackdyn_model::{Kinematics, VehicleFile};
 use trackdyn_recording::RunList;
@@ -100,9 +101,10 @@ fn replay(
         .collect::<Result<_, _>>()?;
     let part = corrected.part(&settings.part)?;
     // All of the recording tells most of its clocks.
-    let clock = Clock::of(motion, settings.tau)
+    let clock = Clock::of(motion, settings.tau, &clock::Settings::default())
         .map_err(|cause| Error::Identify { recording: recording.place(), cause })?;
-    let contradictions = corrected.expect_reference(gauge.clone(), settings.tau)?;
+    let options = Options { tau: settings.tau, ..Options::new(gauge.metres()) };
+    let contradictions = corrected.expect_reference(&options)?;
     let of_file = |one: &Replayed| [Some(one.set.clone()), one.set.without_alpha()];
     let sets = replayed.iter().flat_map(of_file).flatten();
     let sets: Vec<_> = std::iter::once(ParameterSet::ideal(gauge.metres())).chain(sets).collect();

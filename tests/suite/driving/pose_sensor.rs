@@ -6,8 +6,8 @@ use trackdyn_drive::sensors::{
     Dropout, Encoder, Mount, Outlier, PoseFrame, PoseSensor, Preset, StampAt, Walk, White,
 };
 use trackdyn_drive::{ScheduleKind, ScheduleOptions, Sensors};
-use trackdyn_estimate::clock::{ClockSearch, clock_offset};
-use trackdyn_estimate::noise::noise;
+use trackdyn_estimate::clock::{self, clock_offset};
+use trackdyn_estimate::noise::{self, noise};
 use trackdyn_recording::{PoseSample, Recording};
 
 /// Driving with rests, some twelve minutes in three runs.
@@ -51,7 +51,11 @@ fn the_noise_that_is_configured_is_found() {
     let quiet = Walk { position: 0.0, yaw: 0.0, memory: None };
     let pose = PoseSensor { white, ..Preset::Perfect.sensors().pose };
     for seed in 0..3 {
-        let found = noise(&record(&perfect(PoseSensor { walk: quiet, ..pose }), &runs, seed), 0.0);
+        let found = noise(
+            &record(&perfect(PoseSensor { walk: quiet, ..pose }), &runs, seed),
+            0.0,
+            &noise::Settings::default(),
+        );
         // Some thousand triples that overlap tell a deviation to 2 %: 10 % is five times that.
         let moving = found.moving.expect("driving");
         assert!((moving.forward.white / 0.006 - 1.0).abs() < 0.1, "{moving:?}");
@@ -69,7 +73,11 @@ fn the_noise_that_is_configured_is_found() {
     // A walk of 15 mm/√s makes 4.5 mm in an interval of 90 ms, against 3 mm of white noise.
     let white = White { position: 0.003, yaw: 0.001 };
     let walk = Walk { position: 0.015, yaw: 0.005, memory: None };
-    let found = noise(&record(&perfect(PoseSensor { white, walk, ..pose }), &runs, 3), 0.0);
+    let found = noise(
+        &record(&perfect(PoseSensor { white, walk, ..pose }), &runs, 3),
+        0.0,
+        &noise::Settings::default(),
+    );
     let moving = found.moving.expect("driving");
     for (component, expected) in
         [(moving.forward, 0.015), (moving.lateral, 0.015), (moving.yaw, 0.005)]
@@ -130,7 +138,7 @@ fn the_clock_offset_is_recovered_with_ticks_jitter_and_noise() {
         let pose = PoseSensor { delay, jitter: 3e-3, ..PoseSensor::default() };
         let sensors = Sensors { encoder, pose, imu: None, ..Sensors::default() };
         let recording = record(&sensors, &runs, 11);
-        let found = clock_offset(&recording, &ClockSearch::default()).expect("turning");
+        let found = clock_offset(&recording, &clock::Settings::default()).expect("turning");
         let expected = sensors.clock_offset();
         // four standard errors, and a millisecond for what stamps that scatter do to held readings
         let allowed = 4.0 * found.standard_error + 1e-3;

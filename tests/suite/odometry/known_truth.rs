@@ -35,7 +35,7 @@ fn compare(recording: &Recording, sets: Vec<ParameterSet>, tau: f64) -> Comparis
 #[test]
 fn true_parameters_leave_noise() {
     let recording = noisy();
-    let tau = clock::clock_offset(&recording, &clock::ClockSearch::default()).expect("turning");
+    let tau = clock::clock_offset(&recording, &clock::Settings::default()).expect("turning");
     let result = compare(&recording, vec![ParameterSet::ideal(0.42), truth()], tau.tau);
     let segments = result.segments().expect("segments");
     // Twelve runs, each cut into four blocks.

@@ -2,7 +2,7 @@
 
 use trackdyn_core::PerSide;
 use trackdyn_estimate::Error;
-use trackdyn_estimate::clock::{ClockSearch, clock_offset};
+use trackdyn_estimate::clock::{self, clock_offset};
 use trackdyn_estimate::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
 use trackdyn_recording::{Recording, Source};
 
@@ -20,7 +20,7 @@ fn noisy(tau: f64, seed: u64) -> Synthetic {
 }
 
 fn refusal(recording: &Recording) -> String {
-    let error = clock_offset(recording, &ClockSearch::default()).expect_err("refused");
+    let error = clock_offset(recording, &clock::Settings::default()).expect_err("refused");
     let expected =
         matches!(error, Error::NotEstimable { .. } | Error::Unlike { .. } | Error::Swapped { .. });
     assert!(expected, "{error}");
@@ -35,7 +35,7 @@ fn the_offset_is_recovered_within_its_error() {
     for seed in 0..seeds {
         let tau = 0.3 - 0.01 * f64::from(seed);
         let recording = noisy(tau, u64::from(seed)).recording().expect("long enough");
-        let found = clock_offset(&recording, &ClockSearch::default()).expect("turning");
+        let found = clock_offset(&recording, &clock::Settings::default()).expect("turning");
         // 1/(x_r − x_l), less the attenuation by encoder noise
         assert!((found.yaw_per_difference - 1.0 / 0.832).abs() < 0.02);
         assert!(found.standard_error < 0.01, "{found:?}");
@@ -57,7 +57,7 @@ fn quick_poses_with_coarse_yaw_show_the_offset() {
     let tau = -0.08;
     let synthetic = Synthetic { pose_interval: 1.0 / 170.0, yaw_noise: 0.011, ..noisy(tau, 3) };
     let recording = synthetic.recording().expect("long enough");
-    let found = clock_offset(&recording, &ClockSearch::default()).expect("turning");
+    let found = clock_offset(&recording, &clock::Settings::default()).expect("turning");
     let off = (found.tau - tau).abs();
     assert!(found.standard_error < 0.01 && off < 4.0 * found.standard_error, "{found:?}");
 }
@@ -66,7 +66,7 @@ fn quick_poses_with_coarse_yaw_show_the_offset() {
 fn without_noise_the_offset_is_exact() {
     for tau in [-0.31, 0.0, 0.275, 0.7] {
         let recording = Synthetic { tau, ..Synthetic::default() }.recording().expect("long enough");
-        let found = clock_offset(&recording, &ClockSearch::default()).expect("turning");
+        let found = clock_offset(&recording, &clock::Settings::default()).expect("turning");
         // 10 µs: the golden section ends at 1 µs, on a minimum that rounding flattens.
         assert!((found.tau - tau).abs() < 1e-5, "{found:?}");
     }
@@ -98,7 +98,13 @@ fn swapped_sides_short_recordings_and_far_offsets_are_refused() {
 
     let recording =
         Synthetic { tau: 0.9, ..Synthetic::default() }.recording().expect("long enough");
-    let search = ClockSearch { earliest: -0.5, latest: 0.5, farthest: 0.7, last: 0.7 };
+    let search = clock::Settings {
+        earliest: -0.5,
+        latest: 0.5,
+        farthest: 0.7,
+        last: 0.7,
+        ..clock::Settings::default()
+    };
     let error = clock_offset(&recording, &search).expect_err("refused");
     assert!(matches!(error, Error::ClockFar { farthest: 0.7, .. }), "{error}");
 }
@@ -108,7 +114,7 @@ fn swapped_sides_short_recordings_and_far_offsets_are_refused() {
 fn the_search_goes_as_far_as_it_has_to() {
     for tau in [-14.3, -1.5, -0.5, 1.0, 2.5, 37.0] {
         let recording = noisy(tau, 6).recording().expect("long enough");
-        let found = clock_offset(&recording, &ClockSearch::default()).expect("turning");
+        let found = clock_offset(&recording, &clock::Settings::default()).expect("turning");
         let off = (found.tau - tau).abs();
         assert!(off < 4.0 * found.standard_error && off < 0.02, "{tau}: {found:?}");
     }
@@ -125,7 +131,7 @@ fn a_clear_peak_beyond_the_search_is_taken() {
             rows
         });
         let late_runs = Recording::new("n", "r", runs.collect(), Source::computed(), Vec::new());
-        let search = ClockSearch::default();
+        let search = clock::Settings::default();
         let found = clock_offset(&late_runs.expect("long enough"), &search).expect("turning");
         assert!((found.tau - 0.2 - late).abs() < 0.02, "{late}: {found:?}");
     }
@@ -134,7 +140,7 @@ fn a_clear_peak_beyond_the_search_is_taken() {
 #[test]
 fn outlying_poses_widen_the_error_and_do_not_hide_the_offset() {
     let recording = noisy(0.25, 3).recording().expect("long enough");
-    let clean = clock_offset(&recording, &ClockSearch::default()).expect("turning");
+    let clean = clock_offset(&recording, &clock::Settings::default()).expect("turning");
     let runs = recording.runs().iter().cloned().map(|run| {
         let mut rows = run.into_rows();
         for sample in rows.poses.samples.iter_mut().step_by(13) {
@@ -143,7 +149,8 @@ fn outlying_poses_widen_the_error_and_do_not_hide_the_offset() {
         rows
     });
     let hurt = Recording::new("n", "r", runs.collect(), Source::computed(), Vec::new());
-    let hurt = clock_offset(&hurt.expect("long enough"), &ClockSearch::default()).expect("turning");
+    let hurt =
+        clock_offset(&hurt.expect("long enough"), &clock::Settings::default()).expect("turning");
     assert!(hurt.standard_error > 2.0 * clean.standard_error);
     assert!((hurt.tau - 0.25).abs() < 4.0 * hurt.standard_error, "{hurt:?}");
 }
@@ -165,7 +172,7 @@ fn rare_readings_have_an_offset() {
         rows
     });
     let rare = Recording::new("n", "r", runs.collect(), Source::computed(), Vec::new());
-    let found = clock_offset(&rare.expect("long enough"), &ClockSearch::default());
+    let found = clock_offset(&rare.expect("long enough"), &clock::Settings::default());
     let tau = found.expect("turning").tau;
     assert!((tau - 0.2).abs() < 1.5 / 4.0, "{tau}");
 }
@@ -185,7 +192,7 @@ fn times_without_readings_do_not_count() {
         let recording =
             Recording::new("gaps", "robot", runs.collect(), Source::computed(), Vec::new());
         let recording = recording.expect("usable");
-        let found = clock_offset(&recording, &ClockSearch::default()).expect("turning");
+        let found = clock_offset(&recording, &clock::Settings::default()).expect("turning");
         let off = (found.tau - tau).abs();
         assert!(off < 4.0 * found.standard_error && off < 0.02, "{tau}: {found:?}");
     }

@@ -1,8 +1,8 @@
 //! Noise figures of synthetic recordings.
 
 use trackdyn_core::PerSide;
-use trackdyn_estimate::noise::{Method, PoseNoise, noise};
-use trackdyn_estimate::regular::with_regular_poses;
+use trackdyn_estimate::noise::{self, Method, Noise, PoseNoise, noise};
+use trackdyn_estimate::regular::{self, with_regular_poses};
 use trackdyn_estimate::synthetic::{Stretch, Synthetic, random_steps};
 use trackdyn_recording::{Recording, Source};
 
@@ -11,6 +11,10 @@ fn stop_and_go(count: usize, seed: u64) -> Vec<Stretch> {
     let steps = random_steps(count, 6.0, 1.0, seed);
     let standing = Stretch { duration: 3.0, speeds: PerSide::default() };
     steps.into_iter().flat_map(|step| [step, standing]).collect()
+}
+
+fn measured(recording: &Recording, tau: f64) -> Noise {
+    noise(recording, tau, &noise::Settings::default())
 }
 
 fn noisy(seed: u64) -> Synthetic {
@@ -44,7 +48,7 @@ fn assert_within(found: f64, expected: f64, part: f64) {
 #[test]
 fn white_noise_is_found_standing_and_moving() {
     for seed in 0..5 {
-        let found = noise(&noisy(seed).recording().expect("long enough"), 0.2);
+        let found = measured(&noisy(seed).recording().expect("long enough"), 0.2);
         let standing = found.standing.expect("three seconds of standing");
         assert_eq!(standing.method, Method::StandStill);
         let moving = found.moving.expect("six seconds of steady driving");
@@ -90,7 +94,7 @@ fn a_random_walk_is_told_from_white_noise() {
         rows
     });
     let walking = Recording::new("n", "r", runs.collect(), Source::computed(), Vec::new());
-    let found = noise(&walking.expect("long enough"), 0.2);
+    let found = measured(&walking.expect("long enough"), 0.2);
     for figures in [found.standing.expect("standing"), found.moving.expect("moving")] {
         // Along the diagonal both coordinates walk together: forward and lateral share it as the
         // heading has it, so their squares add up to 2 walk².
@@ -104,7 +108,7 @@ fn a_random_walk_is_told_from_white_noise() {
 #[test]
 fn outliers_do_not_count() {
     let recording = noisy(2).recording().expect("long enough");
-    let clean = noise(&recording, 0.2).standing.expect("standing");
+    let clean = measured(&recording, 0.2).standing.expect("standing");
     let runs = recording.runs().iter().cloned().map(|run| {
         let mut rows = run.into_rows();
         for sample in rows.poses.samples.iter_mut().step_by(50) {
@@ -113,7 +117,7 @@ fn outliers_do_not_count() {
         rows
     });
     let hurt = Recording::new("n", "r", runs.collect(), Source::computed(), Vec::new());
-    let hurt = noise(&hurt.expect("long enough"), 0.2).standing.expect("standing");
+    let hurt = measured(&hurt.expect("long enough"), 0.2).standing.expect("standing");
     // 2 % of the poses are in 6 % of the triples: the median moves by about a tenth
     assert_within(hurt.forward.white, clean.forward.white, 0.2);
 }
@@ -131,7 +135,7 @@ fn held_readings_count_once() {
         rows
     });
     let held = Recording::new("n", "r", runs.collect(), Source::computed(), Vec::new());
-    let encoder = noise(&held.expect("long enough"), 0.2).encoders.left.expect("moving tracks");
+    let encoder = measured(&held.expect("long enough"), 0.2).encoders.left.expect("moving tracks");
     assert!((encoder.update_interval - 0.25).abs() < 1e-9);
     assert_within(encoder.deviation, 0.04, 0.15);
 }
@@ -139,7 +143,7 @@ fn held_readings_count_once() {
 #[test]
 fn what_cannot_be_seen_is_absent() {
     let always_moving = Synthetic::default().recording().expect("long enough");
-    let found = noise(&always_moving, 0.0);
+    let found = measured(&always_moving, 0.0);
     assert_eq!(found.standing, None);
     assert_eq!(found.encoders, PerSide::new(None, None), "constant speeds differ only at steps");
 }
@@ -157,9 +161,10 @@ fn poses_that_are_stamped_late_by_chance_are_quiet_at_the_times_they_were_due() 
     let late = Recording::new("late", "synthetic", late.collect(), Source::computed(), Vec::new());
     let late = late.expect("long enough");
     let found = |recording: &Recording| {
-        noise(recording, 0.2).moving.expect("six seconds of steady driving")
+        measured(recording, 0.2).moving.expect("six seconds of steady driving")
     };
-    let [even, due, late] = [found(&even), found(&with_regular_poses(&late)), found(&late)];
+    let due = with_regular_poses(&late, &regular::Settings::default());
+    let [even, due, late] = [found(&even), found(&due), found(&late)];
     let yaw = |noise: &PoseNoise| noise.of_pose[2];
     assert!(yaw(&late) > 1.5 * yaw(&even), "{late:?} of {even:?}");
     assert!(yaw(&due) < 1.15 * yaw(&even), "{due:?} of {even:?}");

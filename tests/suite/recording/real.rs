@@ -2,8 +2,8 @@
 //! checkout.
 
 use std::path::PathBuf;
-use trackdyn_estimate::clock::{ClockSearch, clock_offset};
-use trackdyn_estimate::noise::noise;
+use trackdyn_estimate::clock::{self, clock_offset};
+use trackdyn_estimate::noise::{self, noise};
 use trackdyn_estimate::{SegmentOptions, segments};
 use trackdyn_recording::{OperatingPoints, Recording, folder};
 
@@ -74,7 +74,7 @@ fn the_measured_map_is_read() {
 fn the_poses_of_marmotte_are_late_as_its_sources_say() {
     let Some(path) = real("marmotte-boreal") else { return };
     let recording = folder::read(&path).expect("readable");
-    let found = clock_offset(&recording, &ClockSearch::default()).expect("turning");
+    let found = clock_offset(&recording, &clock::Settings::default()).expect("turning");
     println!("{found:?}");
     // The sources say 0.25 to 0.30 s without saying what a reading stands for; the estimate goes
     // with readings that are held, which makes it up to an interval, 0.05 s, shorter.
@@ -89,9 +89,9 @@ fn every_recording_has_segments_a_clock_and_noise() {
     for (name, ..) in RECORDINGS {
         let Some(path) = real(name) else { continue };
         let recording = folder::read(&path).expect(name);
-        let clock = clock_offset(&recording, &ClockSearch::default()).expect(name);
+        let clock = clock_offset(&recording, &clock::Settings::default()).expect(name);
         println!("{name}: {clock:?}");
-        let figures = noise(&recording, clock.tau);
+        let figures = noise(&recording, clock.tau, &noise::Settings::default());
         println!("  standing {:?}\n  moving {:?}", figures.standing, figures.moving);
         println!("  left {:?}\n  right {:?}", figures.encoders.left, figures.encoders.right);
         assert!(figures.moving.is_some() && figures.encoders.left.is_some(), "{name}");

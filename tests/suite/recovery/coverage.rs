@@ -2,7 +2,7 @@
 
 use crate::recovery::{GAUGE, TRUTH, drive, fit, record, shares};
 use trackdyn_estimate::identification::{Options, icrs_alone};
-use trackdyn_estimate::noise::noise;
+use trackdyn_estimate::noise::{self, noise};
 use trackdyn_estimate::synthetic::random_steps;
 use trackdyn_estimate::{Free, Parameters};
 use trackdyn_recording::{Recording, Run};
@@ -41,7 +41,7 @@ fn a_minute_that_never_drives_steadily_has_intervals_that_cover_the_truth() {
     };
     let shares = shares(COUNT, 3_000, |seed| {
         let recording = restless(seed);
-        let measured = noise(&recording, 0.0);
+        let measured = noise(&recording, 0.0, &noise::Settings::default());
         assert!(measured.moving.is_none() && measured.standing.is_none(), "{measured:?}");
         let estimate = icrs_alone(&recording, &Options::new(GAUGE)).expect("settles");
         // α of the tracks make the ICRs of their speeds differ: x_r - x_l is divided by their mean.

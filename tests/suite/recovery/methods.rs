@@ -4,7 +4,7 @@ use crate::recovery::{GAUGE, TRUTH, drive, fit, observe, record, start};
 use trackdyn_core::PerSide;
 use trackdyn_estimate::genetic::GeneticOptions;
 use trackdyn_estimate::least_squares::{Loss, doubts, lacks};
-use trackdyn_estimate::noise::noise;
+use trackdyn_estimate::noise::{self, noise};
 use trackdyn_estimate::synthetic::{Stretch, Synthetic};
 use trackdyn_estimate::{
     Doubt, Error, Free, Parameters, Weighting, genetic, least_squares, spin_test,
@@ -67,19 +67,22 @@ fn stretch(duration: f64, left: f64, right: f64) -> Stretch {
 #[test]
 fn spin_test_measures_the_distance_between_the_icrs() {
     let spin = vec![stretch(9.0, -0.5, 0.5), stretch(9.0, 0.5, -0.5)];
-    let result = spin_test(&observe(&record(vec![spin], 4)), GAUGE).expect("it spins");
+    let result =
+        spin_test(&observe(&record(vec![spin], 4)), GAUGE, &spin_test::Settings::default())
+            .expect("it spins");
     // At α ≠ 1 the spin test sees the distance over the mean α.
     let seen = (TRUTH[1] - TRUTH[0]) / f64::midpoint(TRUTH[3], TRUTH[4]);
     assert!((result.gap - seen).abs() < 2e-3, "{} {seen}", result.gap);
     assert!((result.steering_efficiency - GAUGE / result.gap).abs() < 1e-15);
 
     let straight = vec![stretch(20.0, 0.5, 0.5)];
-    let refused = spin_test(&observe(&record(vec![straight], 5)), GAUGE);
+    let refused =
+        spin_test(&observe(&record(vec![straight], 5)), GAUGE, &spin_test::Settings::default());
     assert!(matches!(refused, Err(Error::NoSpin { .. })), "{refused:?}");
 }
 
 fn lacking(recording: &Recording, free: Free) -> Option<Doubt> {
-    lacks(&observe(recording), &noise(recording, 0.0), free)
+    lacks(&observe(recording), &noise(recording, 0.0, &noise::Settings::default()), free)
 }
 
 #[test]

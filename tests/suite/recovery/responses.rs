@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use trackdyn_core::{PerSide, real};
 use trackdyn_estimate::identification::{Options, icrs_alone};
 use trackdyn_estimate::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
-use trackdyn_estimate::{Clock, Contradiction, Interval, Response};
+use trackdyn_estimate::{Clock, Contradiction, Interval, Response, clock};
 use trackdyn_recording::{PoseSample, Recording, Run, TrackSample, UncheckedRun};
 
 /// x_r − x_l, m.
@@ -152,7 +152,7 @@ fn check(kind: &str, most_off: f64, make: impl Fn(u64) -> Recording + Sync) {
 }
 
 fn response(recording: &Recording) -> Response {
-    let tau = Clock::of(recording, None).expect("a clock").tau();
+    let tau = Clock::of(recording, None, &clock::Settings::default()).expect("a clock").tau();
     Response::of(recording, tau).expect("long enough")
 }
 

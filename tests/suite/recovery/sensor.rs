@@ -6,7 +6,7 @@ use trackdyn_estimate::SegmentOptions;
 use trackdyn_estimate::genetic::GeneticOptions;
 use trackdyn_estimate::identification::{Options, identify};
 use trackdyn_estimate::least_squares::{Loss, lacks_nuisance};
-use trackdyn_estimate::noise::noise;
+use trackdyn_estimate::noise::{self, noise};
 use trackdyn_estimate::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
 use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_estimate::{
@@ -73,7 +73,8 @@ fn observe(recording: &Recording, off: f64) -> Observations {
 const BOTH: [Nuisance; 2] = [Nuisance::TimeOffset, Nuisance::SensorYaw];
 
 fn fit(recording: &Recording, nuisances: &[Nuisance], off: f64) -> Estimate {
-    let measured = SegmentNoise::measured(&noise(recording, TAU), 0.8).expect("steady driving");
+    let measured = SegmentNoise::measured(&noise(recording, TAU, &noise::Settings::default()), 0.8)
+        .expect("steady driving");
     let unknowns = Unknowns { free: Free::IcrsAndAlphas, nuisances: nuisances.to_vec() };
     let weighting = Weighting::Noise(measured);
     least_squares(&observe(recording, off), &start(), &unknowns, &weighting, Loss::Huber)
@@ -155,7 +156,11 @@ fn a_lever_arm_moves_the_icrs_and_nothing_else() {
 /// Why a property of the sensor cannot be fitted to such driving.
 fn refused(schedule: Vec<Stretch>, nuisance: Nuisance) -> Option<Doubt> {
     let recording = drive(vec![schedule], 4);
-    lacks_nuisance(&observe(&recording, 0.0), &noise(&recording, TAU), nuisance)
+    lacks_nuisance(
+        &observe(&recording, 0.0),
+        &noise(&recording, TAU, &noise::Settings::default()),
+        nuisance,
+    )
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::validation::recordings::identified;
 use trackdyn_estimate::identification::Fit;
 use trackdyn_estimate::odometry::comparison::{Component, SetErrors};
 use trackdyn_estimate::odometry::{Comparison, Estimate, ParameterSet};
-use trackdyn_estimate::{Clock, Interval};
+use trackdyn_estimate::{Clock, Interval, clock};
 use trackdyn_recording::RunList;
 use trackdyn_tests::real_recording;
 
@@ -38,7 +38,7 @@ fn identified_icrs_forecast_the_other_half() {
             ParameterSet::new(name, estimate.parameters.kinematics())
         };
         let sets = vec![ParameterSet::ideal(gauge), set("fit", plain), set("alpha", with_alphas)];
-        let tau = Clock::of(&recording, None).expect(name).tau();
+        let tau = Clock::of(&recording, None, &clock::Settings::default()).expect(name).tau();
         let result = Comparison::new(&part(judged), sets, tau).expect(name);
         let errors = &result.segments().expect(name).sets;
 

@@ -7,7 +7,7 @@
 
 use crate::validation::recordings::{at_20_hertz, identified, steady};
 use trackdyn_estimate::identification::{Options, icrs_alone};
-use trackdyn_estimate::{Clock, Interval, Nuisance, with_gyroscope};
+use trackdyn_estimate::{Clock, Interval, Nuisance, clock, gyroscope, with_gyroscope};
 use trackdyn_recording::{Recording, RunList};
 use trackdyn_tests::real_recording;
 
@@ -58,8 +58,9 @@ fn distances_agree_with_independent_fits() {
 fn a_gyroscope_halves_the_error_of_the_distance_on_grass() {
     const GYROSCOPE_DISTANCE: f64 = 1.823;
     let Some(recording) = real_recording("warthog-grass") else { return };
-    let clock = Clock::of(&recording, None).expect("turns");
-    let corrected = with_gyroscope(&recording, clock.tau()).expect("it serves");
+    let clock = Clock::of(&recording, None, &clock::Settings::default()).expect("turns");
+    let corrected = with_gyroscope(&recording, clock.tau(), &gyroscope::Settings::default())
+        .expect("it serves");
     let gap = |recording: &Recording, yaw_scale: f64| {
         let options = Options { yaw_scale, ..Options::new(1.08) };
         icrs_alone(recording, &options).expect("determined").gap()

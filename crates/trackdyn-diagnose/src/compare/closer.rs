@@ -13,9 +13,6 @@ use crate::weighted::Weighted;
 use trackdyn_core::real;
 use trackdyn_model::VehicleFile;
 
-/// Standard deviations of χ² by which numbers that are free explain more by chance.
-const CHANCE: f64 = 3.0;
-
 /// Predictions of the runs of the second set: held-out ones where there are any.
 #[derive(Clone, Debug)]
 pub struct Closer {
@@ -47,7 +44,7 @@ impl Closer {
         let of_seen = predicted(seen, Some(&own.mechanics));
         let [_, alike, apart] = of_seen.each_ref().map(|one| one.loss);
         let free = real(own.free.len());
-        let by_chance = free + CHANCE * (2.0 * free).sqrt();
+        let by_chance = free + seen.settings().comparison.max_chance * (2.0 * free).sqrt();
         // what cannot be predicted is no evidence
         let left = if alike.is_finite() { alike - apart - by_chance } else { 0.0 };
         let unseen = sets[1].diagnosis.evidence.unseen.as_ref().map(|unseen| &unseen.evidence);

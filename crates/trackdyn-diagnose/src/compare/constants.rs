@@ -29,11 +29,13 @@ fn class(sets: [&Examination; 2]) -> impl Iterator<Item = EffectId> {
 /// Effects of the class of constants that explain the difference of constant ICRs alone. All of the
 /// class, without sizes, where none does: then it takes several.
 pub(super) fn members(sets: [&Examination; 2], group: &Group) -> Vec<Member> {
-    let vehicle = &sets[0].search.base.as_filed.hypothesis.vehicle;
+    let search = &sets[0].search;
+    let vehicle = &search.base.as_filed.hypothesis.vehicle;
+    let max_chance = search.settings().comparison.max_chance;
     let moved = Vector3::from_fn(|n, _| group.numbers[n].difference.value);
     let deviation = deviation(sets, group);
-    let alone: Vec<Member> =
-        class(sets).filter_map(|effect| member(vehicle, effect, moved, deviation)).collect();
+    let alone = |effect| member(vehicle, effect, (moved, deviation), max_chance);
+    let alone: Vec<Member> = class(sets).filter_map(alone).collect();
     if alone.is_empty() {
         return class(sets).map(|effect| Member { effect, sizes: Vec::new() }).collect();
     }
@@ -90,14 +92,14 @@ fn icr_slope(
 }
 
 /// Sizes of an effect that move the constant ICRs by `moved`; none where no size in its range does,
-/// within the deviations.
+/// within the deviations; `max_chance` is that of chi-squared, in standard deviations.
 ///
 /// Gauss-Newton steps from none, with sizes held in their ranges.
 fn member(
     vehicle: &Vehicle,
     effect: EffectId,
-    moved: Vector3<f64>,
-    deviation: Vector3<f64>,
+    (moved, deviation): (Vector3<f64>, Vector3<f64>),
+    max_chance: f64,
 ) -> Option<Member> {
     const ROUNDS: usize = 30;
     let parameters = effect.card().parameters;
@@ -139,10 +141,10 @@ fn member(
             break;
         }
     }
-    // χ² of three numbers less those that were fitted, at three standard deviations
+    // χ² of three numbers less those that were fitted
     let degrees = real(3_usize.saturating_sub(places.len()).max(1));
-    if left.norm_squared() > degrees + 3.0 * (2.0 * degrees).sqrt() || left.norm() >= wanted.norm()
-    {
+    let by_chance = degrees + max_chance * (2.0 * degrees).sqrt();
+    if left.norm_squared() > by_chance || left.norm() >= wanted.norm() {
         return None;
     }
     let slopes = slopes(&values)?;

@@ -307,7 +307,12 @@ fn constants(
     let deviation = settings.prior.icr_offset_deviation * gauge;
     let numbers = (0..3).map(|n| {
         let known = Prior::normal(mean[n], deviation);
-        Quantity::new(Number::Icr(n), [first[n], second[n]], known, 0.1 * gauge)
+        Quantity::new(
+            Number::Icr(n),
+            [first[n], second[n]],
+            known,
+            settings.comparison.icr_difference * gauge,
+        )
     });
     let numbers = numbers.collect();
     let group = Group { subject: Subject::Constants, effects: Vec::new(), numbers };

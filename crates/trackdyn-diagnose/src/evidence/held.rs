@@ -48,6 +48,7 @@ fn update_interval(
     };
     let mut gaps: Vec<f64> = runs.iter().flat_map(gaps).collect();
     let interval = median(&mut gaps)?;
+    // Intervals are whole numbers of readings, to half of one.
     let early = gaps.iter().filter(|gap| **gap < interval - 0.5 * reading).count();
     let is_even = early <= gaps.len() / settings.held_changes_per_early_one;
     let is_held = interval > 1.5 * reading && interval <= settings.max_held;

@@ -29,7 +29,7 @@ impl Evidence {
         if points.len() < min_points {
             return Err(Error::TooFewPoints { found: points.len(), needed: min_points });
         }
-        let scatter = CHANNELS.map(|channel| scatter(points, channel));
+        let scatter = CHANNELS.map(|channel| scatter(points, channel, &settings.measured_noise));
         if scatter[2].is_none() {
             return Err(Error::NoNoise);
         }

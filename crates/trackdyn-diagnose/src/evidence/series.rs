@@ -15,10 +15,9 @@ use trackdyn_estimate::noise::{Noise, noise};
 use trackdyn_estimate::observations::{Observation, Observations, Piece};
 use trackdyn_estimate::regular::with_regular_poses;
 use trackdyn_estimate::residual_noise;
-use trackdyn_estimate::spin_test;
 use trackdyn_estimate::thinned::{with_poses_every, with_readings_every};
 use trackdyn_estimate::weighting::{MIN_POSE_NOISE, SegmentNoise};
-use trackdyn_estimate::{Clock, SegmentOptions};
+use trackdyn_estimate::{Clock, SegmentOptions, spin_test};
 use trackdyn_recording::{Recording, Run, TrackSample};
 
 /// Difference of times that is rounding, s.
@@ -63,15 +62,16 @@ impl Evidence {
         check_places(recording, by.max_coordinate)?;
         let recording = with_readings_every(recording, by.min_reading_interval);
         let recording = with_poses_every(&recording, by.min_pose_interval);
-        let clock = Clock::of(&recording, tau).map_err(Error::Clock)?;
+        let clock = Clock::of(&recording, tau, &settings.clock).map_err(Error::Clock)?;
         let tau = clock.tau();
-        let poses = Poses::quieter(&recording, tau);
-        let poses = if by_gyroscope { poses.with_gyroscope(tau) } else { poses };
+        let poses = Poses::quieter(&recording, tau, settings);
+        let poses = if by_gyroscope { poses.with_gyroscope(tau, settings) } else { poses };
         let seen = segments(&poses.recording, tau, None, by);
-        let gap = spin_test(&seen, gauge).map_or(by.gap_without_spins * gauge, |spin| spin.gap);
+        let spin = spin_test(&seen, gauge, &settings.spin);
+        let gap = spin.map_or(by.gap_without_spins * gauge, |spin| spin.gap);
         let noise = noise_of_segments(&poses, &seen, gap, gauge)?;
-        let blocks = seen.blocks();
-        let has_world = share_a_frame(&poses.recording);
+        let blocks = seen.blocks(by.min_whole_runs);
+        let has_world = share_a_frame(&poses.recording, &settings.frames);
         let begin = poses.recording.begin();
         let samples = if let Some(Filled { recording, has_place }) = poses.filled(by) {
             // Poses that the gyroscope does not join are as far apart as they were.
@@ -219,10 +219,10 @@ struct Poses<'a> {
 
 impl<'a> Poses<'a> {
     /// Those at regular times where that lowers the noise: a late stamp looks like motion.
-    fn quieter(recording: &'a Recording, tau: f64) -> Self {
-        let as_stamped = noise(recording, tau);
-        let due = with_regular_poses(recording);
-        let as_due = noise(&due, tau);
+    fn quieter(recording: &'a Recording, tau: f64, settings: &Settings) -> Self {
+        let as_stamped = noise(recording, tau, &settings.measured_noise);
+        let due = with_regular_poses(recording, &settings.stamps);
+        let as_due = noise(&due, tau, &settings.measured_noise);
         // log of the product of the white-noise standard deviations
         let level = |noise: &Noise| -> Option<f64> {
             let axes = noise.moving.as_ref()?.of_pose;
@@ -237,11 +237,11 @@ impl<'a> Poses<'a> {
 
     /// The poses with their yaw corrected by a gyroscope; as they are where it does not serve. They
     /// stand at their times, so it tells where they look.
-    fn with_gyroscope(self, tau: f64) -> Self {
-        match with_gyroscope(&self.recording, tau) {
+    fn with_gyroscope(self, tau: f64, settings: &Settings) -> Self {
+        match with_gyroscope(&self.recording, tau, &settings.gyroscope) {
             Ok(corrected) => Self {
                 recording: Cow::Owned(corrected.recording.clone()),
-                noise: noise(&corrected.recording, tau),
+                noise: noise(&corrected.recording, tau, &settings.measured_noise),
                 corrected: Some(Ok(corrected)),
             },
             Err(unfit) => Self { corrected: Some(Err(unfit)), ..self },

@@ -7,7 +7,7 @@
 //! known, λ minimises the expected error (Mallows' C_p).
 
 use super::with_speeds;
-use crate::settings;
+use crate::settings::{self, Settings};
 use std::f64::consts::PI;
 use trackdyn_core::{PerSide, Side, real};
 use trackdyn_estimate::regular::stretches;
@@ -29,13 +29,14 @@ pub(super) fn steps(runs: &[Vec<TrackSample>], settings: &settings::Evidence) ->
 pub(super) fn smoothed(
     runs: &[Vec<TrackSample>],
     step: PerSide<f64>,
-    settings: &settings::Evidence,
+    settings: &Settings,
 ) -> Vec<Vec<TrackSample>> {
+    let by = &settings.evidence;
     let smooth = |run: &Vec<TrackSample>| {
         let stamps: Vec<f64> = run.iter().map(|reading| reading.t).collect();
-        let stretches = stretches(&stamps).into_iter();
+        let stretches = stretches(&stamps, &settings.stamps).into_iter();
         stretches
-            .flat_map(|(stretch, interval)| between_ticks(&run[stretch], interval, step, settings))
+            .flat_map(|(stretch, interval)| between_ticks(&run[stretch], interval, step, by))
             .collect()
     };
     runs.iter().map(smooth).collect()
@@ -161,7 +162,7 @@ mod tests {
     #[test]
     fn a_steady_point_stays_as_it_is() {
         let point = vec![TrackSample { t: 0.0, v_left: 0.3, v_right: -0.1 }];
-        let (steps, settings) = (PerSide::new(0.01, 0.01), settings::Evidence::default());
+        let (steps, settings) = (PerSide::new(0.01, 0.01), Settings::default());
         assert_eq!(smoothed(std::slice::from_ref(&point), steps, &settings), [point]);
     }
 
@@ -200,8 +201,8 @@ mod tests {
     }
 
     fn even(runs: &[Vec<TrackSample>]) -> Vec<Vec<TrackSample>> {
-        let settings = settings::Evidence::default();
-        smoothed(runs, steps(runs, &settings), &settings)
+        let settings = Settings::default();
+        smoothed(runs, steps(runs, &settings.evidence), &settings)
     }
 
     #[test]

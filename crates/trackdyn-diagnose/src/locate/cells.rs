@@ -101,7 +101,7 @@ pub fn cells_within(
                     blocks: &vec![0; chosen.len()],
                     count: 1,
                 });
-                let wide = Prior::normal(0.0, 10.0);
+                let wide = Prior::normal(0.0, settings.shown_deviation);
                 let fit = normal.fit(&[0, 1, 2], &[wide; 3]);
                 let departure =
                     std::array::from_fn(|k| (fit.estimate[k], fit.covariance[(k, k)].sqrt()));

@@ -19,10 +19,6 @@ use std::sync::Arc;
 use trackdyn_core::Twist;
 use trackdyn_model::Effects;
 
-/// Step of a law's number in typical sizes: the change is good to a percent of what a law of
-/// typical size does.
-const STEP: f64 = 0.03;
-
 /// Change of the departure by laws of the shear stress, valid near their numbers.
 #[derive(Clone)]
 pub struct ByShear {
@@ -140,7 +136,8 @@ impl Slope {
     /// The derivative by this number; none where it cannot be changed.
     fn new(by: Unknown, at: &Arc<Solved>, with: &Surface, case: &Case) -> Option<Self> {
         let Unknown::Effect(effect, place) = by else { return None };
-        let (law, step) = (find(&at.laws, effect)?, STEP * typical(by));
+        let share = case.settings().sheared_difference;
+        let (law, step) = (find(&at.laws, effect)?, share * typical(by));
         let stepped = |step: f64| Some((step, slope::moved(law, place, step)?));
         let (step, law) = [step, -step].into_iter().find_map(stepped)?;
         let mut laws = at.laws.clone();

@@ -9,10 +9,6 @@ use trackdyn_core::Twist;
 use trackdyn_model::transient::Step;
 use trackdyn_model::{ActiveEffect, Model};
 
-/// Step of a parameter in typical sizes: forces are exact, and the tables of stationary motion are
-/// good to a millionth.
-const STEP: f64 = 0.01;
-
 /// Derivative of the departure by one parameter.
 pub struct Slope {
     pub by: Unknown,
@@ -53,7 +49,7 @@ pub fn slopes(
 fn stepped(by: Unknown, case: &Case, sign: f64) -> Option<(Model, f64)> {
     let (vehicle, effects) = (case.vehicle, case.model.effects());
     let settings = case.settings();
-    let step = sign * STEP * size(by, vehicle, settings);
+    let step = sign * settings.departure_difference * size(by, vehicle, settings);
     match by {
         Unknown::Offset(_) => None,
         Unknown::Cog(axis) => {

@@ -4,18 +4,17 @@
 //! its direction is not determined.
 
 use crate::evidence::planned::READINGS;
-use crate::settings;
+use crate::settings::{self, Settings};
 use std::f64::consts::FRAC_PI_4;
 use trackdyn_core::{PerSide, real};
-
-/// Time between readings of the encoders, and between commands, s.
-pub const INTERVAL: f64 = 0.03;
 
 /// A manoeuvre from rest to rest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Manoeuvre {
     /// Name in words.
     pub name: String,
+    /// Time between readings of the encoders, and between commands, s.
+    pub interval: f64,
     /// Track speeds of each interval, m/s; a multiple of whole samples.
     pub speeds: Vec<PerSide<f64>>,
 }
@@ -23,31 +22,34 @@ pub struct Manoeuvre {
 impl Manoeuvre {
     /// Duration, s.
     pub fn duration(&self) -> f64 {
-        INTERVAL * real(self.speeds.len())
+        self.interval * real(self.speeds.len())
     }
 }
 
 /// The menu for track speeds up to `fastest` (m/s, above zero). `gap` is the distance of the ICRs,
 /// x_r − x_l, which sets the angle of turns, m.
-pub fn menu(fastest: f64, gap: f64, settings: &settings::Plan) -> Vec<Manoeuvre> {
+pub fn menu(fastest: f64, gap: f64, settings: &Settings) -> Vec<Manoeuvre> {
+    let by = &settings.menu;
     let mut menu = Vec::new();
     for side in SIDES {
-        for share in [0.25, 0.5, 1.0] {
+        for share in by.spin_shares {
             let speed = share * fastest;
             let name = format!("spin {} at {speed:.3} m/s", side.name);
             menu.push(plain(name, side.spin(speed), settings));
         }
         for (word, sense) in DIRECTIONS {
-            for share in [0.3, 0.6, 1.0] {
-                for ratio in [0.3, 0.6, 0.85] {
+            for share in by.arc_shares {
+                for ratio in by.arc_ratios {
                     let speed = share * fastest;
                     let name = format!("arc {word} {} at {speed:.3} m/s, ratio {ratio}", side.name);
                     menu.push(plain(name, side.turn(sense * speed, ratio), settings));
                 }
             }
-            for share in [0.5, 1.0] {
+            for share in by.tight_shares {
                 let speed = share * fastest;
-                for (kind, ratio) in [("counter-rotation", -0.4), ("tight arc", 0.1)] {
+                for (kind, ratio) in
+                    ["counter-rotation", "tight arc"].into_iter().zip(by.tight_ratios)
+                {
                     let name = format!("{kind} {word} {} at {speed:.3} m/s", side.name);
                     menu.push(plain(name, side.turn(sense * speed, ratio), settings));
                 }
@@ -91,10 +93,10 @@ impl Turning {
     }
 }
 
-fn plain(name: String, speeds: PerSide<f64>, settings: &settings::Plan) -> Manoeuvre {
+fn plain(name: String, speeds: PerSide<f64>, settings: &Settings) -> Manoeuvre {
     let mut drive = Drive::new(settings);
-    drive.to(speeds, settings.gentle_ramp);
-    drive.hold(settings.steady);
+    drive.to(speeds, settings.plan.gentle_ramp);
+    drive.hold(settings.plan.steady);
     drive.finish(name)
 }
 
@@ -103,9 +105,10 @@ fn both(speed: f64) -> PerSide<f64> {
 }
 
 /// Straight runs: steady, with starts and stops, and out and back.
-fn straight(menu: &mut Vec<Manoeuvre>, fastest: f64, settings: &settings::Plan) {
+fn straight(menu: &mut Vec<Manoeuvre>, fastest: f64, settings: &Settings) {
+    let (by, plan) = (&settings.menu, &settings.plan);
     for (word, sense) in DIRECTIONS {
-        for share in [0.5, 1.0] {
+        for share in by.straight_shares {
             let speed = share * fastest;
             menu.push(plain(
                 format!("straight {word} at {speed:.3} m/s"),
@@ -114,91 +117,97 @@ fn straight(menu: &mut Vec<Manoeuvre>, fastest: f64, settings: &settings::Plan) 
             ));
             let mut drive = Drive::new(settings);
             for _ in 0..3 {
-                drive.to(both(sense * speed), settings.sharp_ramp);
-                drive.hold(settings.rest);
-                drive.to(both(0.0), settings.sharp_ramp);
-                drive.hold(settings.rest);
+                drive.to(both(sense * speed), plan.sharp_ramp);
+                drive.hold(plan.rest);
+                drive.to(both(0.0), plan.sharp_ramp);
+                drive.hold(plan.rest);
             }
             menu.push(drive.finish(format!("starts and stops {word} at {speed:.3} m/s")));
         }
     }
-    for share in [0.5, 1.0] {
+    for share in by.straight_shares {
         let speed = share * fastest;
         let mut drive = Drive::new(settings);
         for sense in [1.0, -1.0] {
-            drive.to(both(sense * speed), settings.gentle_ramp);
-            drive.hold(settings.steady);
-            drive.to(both(0.0), settings.gentle_ramp);
+            drive.to(both(sense * speed), plan.gentle_ramp);
+            drive.hold(plan.steady);
+            drive.to(both(0.0), plan.gentle_ramp);
         }
         menu.push(drive.finish(format!("out and back at {speed:.3} m/s")));
     }
 }
 
 /// Sharp changes of speed.
-fn transients(menu: &mut Vec<Manoeuvre>, fastest: f64, settings: &settings::Plan) {
+fn transients(menu: &mut Vec<Manoeuvre>, fastest: f64, settings: &Settings) {
+    let (by, plan) = (&settings.menu, &settings.plan);
     let mut steps = |name: String, between: [PerSide<f64>; 2]| {
         let mut drive = Drive::new(settings);
-        drive.to(between[0], settings.gentle_ramp);
+        drive.to(between[0], plan.gentle_ramp);
         for _ in 0..3 {
-            drive.hold(settings.rest);
-            drive.to(between[1], settings.sharp_ramp);
-            drive.hold(settings.rest);
-            drive.to(between[0], settings.sharp_ramp);
+            drive.hold(plan.rest);
+            drive.to(between[1], plan.sharp_ramp);
+            drive.hold(plan.rest);
+            drive.to(between[0], plan.sharp_ramp);
         }
         menu.push(drive.finish(name));
     };
     for (word, sense) in DIRECTIONS {
-        let between = [0.2, 0.8].map(|share| both(sense * share * fastest));
+        let between = by.speed_steps.map(|share| both(sense * share * fastest));
         steps(format!("steps of speed {word}"), between);
-        let [left, right] = SIDES.map(|side| side.turn(sense * 0.7 * fastest, 0.3));
+        let [left, right] =
+            SIDES.map(|side| side.turn(sense * by.arc_step_share * fastest, by.arc_step_ratio));
         steps(format!("steps between arcs {word}, left first"), [left, right]);
         steps(format!("steps between arcs {word}, right first"), [right, left]);
     }
     for side in SIDES {
-        let between = [0.15, 0.6].map(|share| side.spin(share * fastest));
+        let between = by.spin_steps.map(|share| side.spin(share * fastest));
         steps(format!("steps of a spin {}", side.name), between);
-        let between = [side.spin(0.4 * fastest), side.spin(-0.4 * fastest)];
+        let between = [1.0, -1.0].map(|sense| side.spin(sense * by.reversal_share * fastest));
         steps(format!("reversals of a spin, {} first", side.name), between);
     }
 }
 
 /// Slow turns.
-fn creeping(menu: &mut Vec<Manoeuvre>, fastest: f64, settings: &settings::Plan) {
-    for speed in settings.creeping_speeds.into_iter().filter(|speed| *speed <= fastest) {
+fn creeping(menu: &mut Vec<Manoeuvre>, fastest: f64, settings: &Settings) {
+    let ratio = settings.menu.creeping_ratio;
+    for speed in settings.plan.creeping_speeds.into_iter().filter(|speed| *speed <= fastest) {
         for side in SIDES {
             let name = format!("creeping spin {} at {speed:.3} m/s", side.name);
             menu.push(plain(name, side.spin(speed), settings));
             for (word, sense) in DIRECTIONS {
                 let name = format!("creeping arc {word} {} at {speed:.3} m/s", side.name);
-                menu.push(plain(name, side.turn(sense * speed, 0.4), settings));
+                menu.push(plain(name, side.turn(sense * speed, ratio), settings));
             }
         }
     }
 }
 
 /// One arc at eight headings.
-fn headings(side: Turning, fastest: f64, gap: f64, settings: &settings::Plan) -> Manoeuvre {
+fn headings(side: Turning, fastest: f64, gap: f64, settings: &Settings) -> Manoeuvre {
+    let (by, plan) = (&settings.menu, &settings.plan);
     let mut drive = Drive::new(settings);
     for _ in 0..8 {
         // Out and back on one arc: the difference between arcs is the heading.
         for sense in [1.0, -1.0] {
-            drive.to(side.turn(sense * 0.4 * fastest, 0.5), settings.gentle_ramp);
-            drive.hold(settings.rest);
-            drive.to(both(0.0), settings.gentle_ramp);
+            let speed = sense * by.heading_share * fastest;
+            drive.to(side.turn(speed, by.heading_ratio), plan.gentle_ramp);
+            drive.hold(plan.rest);
+            drive.to(both(0.0), plan.gentle_ramp);
         }
-        drive.spin(side, FRAC_PI_4, 0.4 * fastest, gap);
+        drive.spin(side, FRAC_PI_4, by.corner_share * fastest, gap);
     }
     drive.finish(format!("the same arc {} at eight headings", side.name))
 }
 
 /// A square with turns on the spot.
-fn square(side: Turning, fastest: f64, gap: f64, settings: &settings::Plan) -> Manoeuvre {
+fn square(side: Turning, fastest: f64, gap: f64, settings: &Settings) -> Manoeuvre {
+    let (by, plan) = (&settings.menu, &settings.plan);
     let mut drive = Drive::new(settings);
     for _ in 0..4 {
-        drive.to(both(0.7 * fastest), settings.gentle_ramp);
-        drive.hold(settings.square_side);
-        drive.to(both(0.0), settings.gentle_ramp);
-        drive.spin(side, 2.0 * FRAC_PI_4, 0.4 * fastest, gap);
+        drive.to(both(by.square_share * fastest), plan.gentle_ramp);
+        drive.hold(plan.square_side);
+        drive.to(both(0.0), plan.gentle_ramp);
+        drive.spin(side, 2.0 * FRAC_PI_4, by.corner_share * fastest, gap);
     }
     drive.finish(format!("square to the {}", side.name))
 }
@@ -210,8 +219,8 @@ struct Drive<'a> {
 }
 
 impl<'a> Drive<'a> {
-    fn new(settings: &'a settings::Plan) -> Self {
-        Self { speeds: Vec::new(), settings }
+    fn new(settings: &'a Settings) -> Self {
+        Self { speeds: Vec::new(), settings: &settings.plan }
     }
 
     fn now(&self) -> PerSide<f64> {
@@ -235,14 +244,14 @@ impl<'a> Drive<'a> {
     /// Turns on the spot by an angle (rad), from rest to rest, at `fastest` (m/s) or less.
     fn spin(&mut self, side: Turning, angle: f64, fastest: f64, gap: f64) {
         // V_r − V_l = ω (x_r − x_l), eq. (9): each track runs half of the arc.
-        let ramp = self.settings.gentle_ramp;
+        let &settings::Plan { gentle_ramp: ramp, interval, .. } = self.settings;
         let arc = angle * gap / 2.0;
         let mut steady = 0;
-        while INTERVAL * real(ramp + steady) * fastest < arc {
+        while interval * real(ramp + steady) * fastest < arc {
             steady += 1;
         }
         // Two ramps cover as much as one ramp's time at full speed.
-        let speed = arc / (INTERVAL * real(ramp + steady));
+        let speed = arc / (interval * real(ramp + steady));
         self.to(side.spin(speed), ramp);
         self.hold(steady);
         self.to(both(0.0), ramp);
@@ -255,7 +264,7 @@ impl<'a> Drive<'a> {
         }
         self.hold(self.settings.rest);
         self.hold(self.speeds.len().next_multiple_of(READINGS) - self.speeds.len());
-        Manoeuvre { name, speeds: self.speeds }
+        Manoeuvre { name, interval: self.settings.interval, speeds: self.speeds }
     }
 }
 
@@ -265,7 +274,7 @@ mod tests {
 
     #[test]
     fn manoeuvres_start_and_end_at_rest_and_stay_within_the_limit() {
-        let settings = settings::Plan::default();
+        let settings = Settings::default();
         for fastest in [0.02, 0.3, 1.0, 3.0] {
             let menu = menu(fastest, 0.83, &settings);
             for manoeuvre in &menu {
@@ -277,7 +286,7 @@ mod tests {
                 let first = manoeuvre.speeds[0];
                 assert!(
                     first.left.abs().max(first.right.abs())
-                        <= fastest / real(settings.sharp_ramp) + 1e-12
+                        <= fastest / real(settings.plan.sharp_ramp) + 1e-12
                 );
             }
             let mut names: Vec<&str> = menu.iter().map(|m| m.name.as_str()).collect();
@@ -289,7 +298,7 @@ mod tests {
 
     #[test]
     fn every_manoeuvre_has_its_mirror_image() {
-        let menu = menu(1.0, 0.83, &settings::Plan::default());
+        let menu = menu(1.0, 0.83, &Settings::default());
         for manoeuvre in &menu {
             let mirrored: Vec<PerSide<f64>> =
                 manoeuvre.speeds.iter().map(|v| PerSide::new(v.right, v.left)).collect();

@@ -48,18 +48,19 @@ fn a_clock_and_a_lag_differ_where_speeds_change_only() {
     );
     // Sharper than any gentle ramp up to the same speed.
     let gentle = Options::default().fastest / 0.51;
-    let Manoeuvre { name, speeds } = &plan.steps[0].manoeuvre;
+    let Manoeuvre { name, interval, speeds } = &plan.steps[0].manoeuvre;
     let changes = speeds
         .windows(2)
         .map(|pair| (pair[1].left - pair[0].left).abs().max((pair[1].right - pair[0].right).abs()));
-    let sharpest = changes.fold(0.0, f64::max) / super::menu::INTERVAL;
+    let sharpest = changes.fold(0.0, f64::max) / interval;
     assert!(sharpest > 1.5 * gentle, "{name}: {sharpest}");
     // Steady driving: constant readings.
     let question = &question(&members, "")[0];
-    let menu = menu(1.0, 0.83, &Options::default().method.plan);
+    let menu = menu(1.0, 0.83, &Options::default().method);
     let class = Class::new(question, &file, &menu, &Options::default()).expect("a class");
     let steady = Manoeuvre {
         name: String::new(),
+        interval: *interval,
         speeds: vec![PerSide::new(0.3, 0.9); 30 * crate::evidence::planned::READINGS],
     };
     let products = class.products(&[run(&[&steady], 0.0, Pose::default())], &Options::default());

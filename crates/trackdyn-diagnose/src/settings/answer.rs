@@ -1,8 +1,8 @@
 //! Which effects are one answer together.
 
-use super::group::group;
+use trackdyn_core::settings_group;
 
-group! {
+settings_group! {
     /// Which effects are one answer together.
     Answer {
         /// ln likelihood within which two hypotheses are one answer.

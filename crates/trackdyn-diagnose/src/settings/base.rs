@@ -1,8 +1,8 @@
 //! What is free in every hypothesis.
 
-use super::group::group;
+use trackdyn_core::settings_group;
 
-group! {
+settings_group! {
     /// What is free in every hypothesis.
     Base {
         /// Deviation of the ICRs' distance from which turning is unknown.

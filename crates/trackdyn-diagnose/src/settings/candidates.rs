@@ -1,8 +1,8 @@
 //! Which variants of each effect are tried.
 
-use super::group::group;
+use trackdyn_core::settings_group;
 
-group! {
+settings_group! {
     /// Which variants of each effect are tried.
     Candidates {
         /// Steps to signatures, in typical sizes; the first possible one counts.

@@ -1,8 +1,9 @@
 //! What counts as evidence, and what its residuals weigh.
 
-use super::group::group;
+use trackdyn_core::settings_group;
+use trackdyn_estimate::Blocks;
 
-group! {
+settings_group! {
     /// What counts as evidence, and what its residuals weigh.
     Evidence {
         /// Fewest segments of a recording.
@@ -13,6 +14,10 @@ group! {
         min_points: usize = 30, "", [3.0, 1e6],
             "Ten for each ICR coordinate.",
             "Lower: their scatter is hardly known.";
+        /// Fewest runs that are a block each; fewer are cut into twice as many pieces.
+        min_whole_runs: usize = Blocks::MIN_WHOLE_RUNS, "", [2.0, 1e4],
+            "The scatter of fewer blocks is a poor variance.",
+            "Lower: chance passes tests; higher: pieces pass for independent.";
         /// Most blocks of a table.
         max_table_blocks: usize = 48, "", [2.0, 1e4],
             "As of a recording.",

@@ -1,8 +1,8 @@
 //! How the numbers of a hypothesis are fitted.
 
-use super::group::group;
+use trackdyn_core::settings_group;
 
-group! {
+settings_group! {
     /// How the numbers of a hypothesis are fitted.
     Fit {
         /// Most Gauss-Newton steps.

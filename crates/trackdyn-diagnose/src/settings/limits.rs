@@ -1,8 +1,8 @@
 //! How far intervals and detection limits reach.
 
-use super::group::group;
+use trackdyn_core::settings_group;
 
-group! {
+settings_group! {
     /// How far intervals and detection limits reach.
     Limits {
         /// z of a detectable effect.

@@ -1,8 +1,8 @@
 //! Which symmetries the evidence breaks.
 
-use super::group::group;
+use trackdyn_core::settings_group;
 
-group! {
+settings_group! {
     /// Which symmetries the evidence breaks.
     Location {
         /// Largest family-wise p of a broken symmetry.
@@ -57,6 +57,10 @@ group! {
         max_belt_way: f64 = 50.0, "m", [1.0, 1e6],
             "Many turns of a sprocket.",
             "Longer: more waves, and chance grows; shorter: a weak one is missed.";
+        /// Fewest waves of a belt within that way.
+        min_belt_waves: usize = 3, "", [1.0, 1e3],
+            "Fewer look like a trend.",
+            "Lower: drift looks like a wave.";
         /// Part of the poses beyond each end of the area.
         outer_share: f64 = 0.01, "", [0.0, 0.4],
             "One in 100 may be stray.",
@@ -72,5 +76,8 @@ group! {
         /// Fewest samples of a cell of ICRs in pictures.
         min_samples_shown: usize = 12, "", [3.0, 1e6],
             "Four for each coordinate.";
+        /// Deviation of the ICRs of such a cell before they are seen.
+        shown_deviation: f64 = 10.0, "m", [1e-3, 1e6],
+            "Nothing is known of them.";
     }
 }

@@ -1,8 +1,8 @@
 //! How a hypothesis predicts motion.
 
-use super::group::group;
+use trackdyn_core::settings_group;
 
-group! {
+settings_group! {
     /// How a hypothesis predicts motion.
     Mechanics {
         /// Part of the speeds that may have no motion.
@@ -48,6 +48,12 @@ group! {
         /// Time of it after which the motion with a law is stationary, too.
         min_steady_time: f64 = 0.2, "s", [0.0, 10.0],
             "Bodies follow belts in milliseconds.";
+        /// Difference step of a number that a motion in time depends on, in typical sizes.
+        departure_difference: f64 = 0.01, "", [1e-6, 0.5],
+            "Tables of stationary motion are good to a millionth.";
+        /// That step of a law of the shear stress.
+        sheared_difference: f64 = 0.03, "", [1e-6, 0.5],
+            "Good to a percent of the law.";
         /// Change, in typical sizes, over which a motion in time serves.
         reach: f64 = 0.2, "", [1e-3, 10.0],
             "What is not linear is half a percent.";

@@ -1,10 +1,10 @@
 //! How noise is told from what driving could explain.
 
-use super::group::group;
+use trackdyn_core::settings_group;
 use trackdyn_estimate::likely_noise::Search;
 use trackdyn_estimate::variances::Climb;
 
-group! {
+settings_group! {
     /// How noise is told from what driving could explain.
     Noise {
         /// Degrees of freedom of the noise's heavy tails.

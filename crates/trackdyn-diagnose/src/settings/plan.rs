@@ -1,8 +1,8 @@
 //! What driving tells rivals apart.
 
-use super::group::group;
+use trackdyn_core::settings_group;
 
-group! {
+settings_group! {
     /// What driving tells rivals apart.
     Plan {
         /// Distance from which rivals are told apart.
@@ -32,7 +32,11 @@ group! {
         /// Most rounds of exchanging manoeuvres.
         exchange_rounds: usize = 3, "", [0.0, 100.0],
             "A cap: the gain ends them.";
-        /// Intervals of 0.03 s in a gentle ramp.
+        /// Interval of readings and commands.
+        interval: f64 = 0.03, "s", [1e-3, 1.0],
+            "As in the paper.",
+            "Higher: ramps are coarse.";
+        /// Intervals in a gentle ramp.
         gentle_ramp: usize = 17, "", [1.0, 1e4],
             "Half a second.",
             "Lower: inertia shows everywhere.";

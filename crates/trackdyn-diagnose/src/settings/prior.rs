@@ -1,8 +1,8 @@
 //! What is known of each number before the evidence.
 
-use super::group::group;
+use trackdyn_core::settings_group;
 
-group! {
+settings_group! {
     /// What is known of each number before the evidence.
     Prior {
         /// Deviation of a size, in typical sizes.
@@ -33,6 +33,10 @@ group! {
         form_deviations: [f64; 3] = [0.1, 0.2, 0.4], "", [1e-3, 10.0],
             "Other laws of friction differ by 10 to 40 %.",
             "Lower: second laws mend the form of the first; higher: they hide.";
+        /// Largest effect of another form that is not asked for.
+        min_form_effect: f64 = 0.5, "sd", [0.0, 100.0],
+            "It shows nothing.",
+            "Higher: forms of weak laws pass for physics.";
         /// Deviation of a constant ICR.
         icr_offset_deviation: f64 = 0.5, "gauge", [1e-3, 100.0],
             "ICRs lie near the tracks.",

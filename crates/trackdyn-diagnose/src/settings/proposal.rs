@@ -1,8 +1,8 @@
 //! When a form is proposed for what no effect explains.
 
-use super::group::group;
+use trackdyn_core::settings_group;
 
-group! {
+settings_group! {
     /// When a form is proposed for what no effect explains.
     Proposal {
         /// Most terms of a law.

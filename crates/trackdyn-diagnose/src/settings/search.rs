@@ -1,8 +1,8 @@
 //! Which hypotheses are refitted and kept.
 
-use super::group::group;
+use trackdyn_core::settings_group;
 
-group! {
+settings_group! {
     /// Which hypotheses are refitted and kept.
     Search {
         /// Most effects that are added.

@@ -1,8 +1,8 @@
 //! What a claim must reach.
 
-use super::group::group;
+use trackdyn_core::settings_group;
 
-group! {
+settings_group! {
     /// What a claim must reach: each of these rules can refuse it.
     Verdict {
         /// Largest family-wise probability that chance scores as high.

@@ -1,7 +1,9 @@
 //! Pose intervals and what the encoders did in them.
 
+use super::Settings;
 use super::regression::{Fit, Sums};
 use crate::gaps::Gaps;
+use crate::thinned::with_poses_every;
 use trackdyn_core::robust::{median, usual_interval};
 use trackdyn_recording::hold::holding;
 use trackdyn_recording::recording::longest_interval;
@@ -33,7 +35,8 @@ pub(super) struct Turn {
 }
 
 impl Intervals {
-    pub(super) fn new(recording: &Recording) -> Self {
+    pub(super) fn new(recording: &Recording, settings: &Settings) -> Self {
+        let recording = with_poses_every(recording, settings.min_pose_interval);
         let mut intervals = Vec::new();
         let mut updates = Vec::new();
         for run in recording.runs() {
@@ -45,9 +48,9 @@ impl Intervals {
             updates.extend(firsts.windows(2).map(|pair| pair[1] - pair[0]));
         }
         let track_interval = median(&mut intervals).unwrap_or(0.0);
-        // Without noise, speeds change only where they are told to: half a second is enough, unless
-        // readings are rarer.
-        let update_interval = median(&mut updates).unwrap_or(0.0).min(0.5).max(track_interval);
+        // Without noise, speeds change only where they are told to, unless readings are rarer.
+        let update_interval = median(&mut updates).unwrap_or(0.0);
+        let update_interval = update_interval.min(settings.max_update_interval).max(track_interval);
         let runs = recording.runs().iter().map(RunIntervals::new).collect();
         Self { runs, track_interval, update_interval }
     }

@@ -1,11 +1,9 @@
 //! The offset at which the residual is orthogonal to instruments without the noise of D.
 
+use super::Settings;
 use super::intervals::{Intervals, RunIntervals, Turn};
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use trackdyn_core::real;
-
-/// Length of a block whose residuals may be correlated, s.
-const BLOCK_DURATION: f64 = 5.0;
 
 /// Pose intervals with their instruments, and where to look for the offset.
 pub(super) struct Moments<'a> {
@@ -35,8 +33,8 @@ pub(super) struct Estimate {
 
 impl<'a> Moments<'a> {
     /// Instruments for offsets around `coarse`; none where no interval has readings around it.
-    pub(super) fn new(intervals: &'a Intervals, coarse: f64) -> Option<Self> {
-        let width = intervals.track_interval + super::SEARCH_STEP;
+    pub(super) fn new(intervals: &'a Intervals, coarse: f64, settings: &Settings) -> Option<Self> {
+        let width = intervals.track_interval + settings.step;
         let mut rows = Vec::new();
         for (index, run) in intervals.runs.iter().enumerate() {
             for turn in &run.turns {
@@ -48,13 +46,18 @@ impl<'a> Moments<'a> {
                 }
                 let lag = run.difference(turn, coarse + away);
                 let lead = run.difference(turn, coarse - away);
-                let block = (index, (turn.start / BLOCK_DURATION).floor());
+                let block = (index, (turn.start / settings.block_duration).floor());
                 let instruments = [lead + lag, turn.end - turn.start, lead - lag];
                 rows.push(Row { run, turn, block, instruments });
             }
         }
         let track_interval = intervals.track_interval;
-        (rows.len() >= super::MIN_INTERVALS).then_some(Self { rows, coarse, width, track_interval })
+        (rows.len() >= settings.min_intervals).then_some(Self {
+            rows,
+            coarse,
+            width,
+            track_interval,
+        })
     }
 
     pub(super) fn count(&self) -> usize {

@@ -38,7 +38,7 @@ impl Corrected {
     fn filled_run(&self, index: usize, run: &Run, interval: f64) -> (Run, Vec<bool>) {
         let poses = run.poses();
         let longest = longest_interval(usual_interval(poses.iter().map(|pose| pose.t)));
-        let turned = Turned::of_run(run);
+        let turned = Turned::of_run(run, self.min_readings);
         let of_run = self.rows.iter().filter(|(of, _)| *of == index);
         // the second of two poses that the gyroscope joins
         let joined = of_run.flat_map(|(_, row)| row.clone().skip(1));

@@ -2,7 +2,7 @@
 
 use super::level::Level;
 use super::turned::Turned;
-use super::{MIN_POSES, MIN_ROW, Unfit};
+use super::{Settings, Unfit};
 use crate::gauss_newton::Loss;
 use nalgebra::{Matrix2, Vector2};
 use std::ops::Range;
@@ -10,36 +10,13 @@ use trackdyn_core::real;
 use trackdyn_core::robust::deviation_about_zero;
 use trackdyn_recording::Recording;
 
-/// Lags that are tried from a start on, either way, s.
-const MAX_LAG: f64 = 1.0;
-
-/// Step between them, s: a robot hardly changes its turning within it.
-const LAG_STEP: f64 = 0.1;
-
-/// Standard deviation of a scale before it is measured, 1: the tilt of a mount, and its error.
-const SCALE_PRIOR: f64 = 0.05;
-
-/// Standard deviation of a lag about its start, s: without turns, the start stands.
-const LAG_PRIOR: f64 = 0.2;
-
-/// Time between mean yaws whose turns tell the scale, s: a filter or a late stamp takes little of
-/// them. On real drives the scale by turns within 0.1 s is up to 2 % too small, and from 2 s on
-/// steady.
-const SCALE_INTERVAL: f64 = 2.0;
-
-/// Longest time that runs which share a bias begin after the first of them, s: a gyroscope keeps it
-/// for minutes.
-const MAX_SESSION: f64 = 600.0;
-
-/// Steps of the fit; it has settled before.
-const ITERATIONS: usize = 20;
-
 /// A recording and the integrals of its gyroscope, run by run.
 pub(super) struct Drive<'a> {
     pub(super) recording: &'a Recording,
     pub(super) turned: &'a [Vec<Turned>],
     /// Indices of the poses of each run at which their yaw jumps.
     pub(super) jumps: Vec<Vec<usize>>,
+    pub(super) settings: &'a Settings,
 }
 
 /// Poses of a run during which a gyroscope measures without a gap.
@@ -85,11 +62,12 @@ fn means(column: &[f64], groups: &[Range<usize>]) -> Vec<f64> {
 impl Drive<'_> {
     /// The rows of poses that the gyroscope covers at a lag, s.
     pub(super) fn rows(&self, lag: f64) -> Vec<Row<'_>> {
+        let &Settings { min_row, max_session, .. } = self.settings;
         let mut rows = Vec::new();
         let (mut session, mut begin) = (0, f64::INFINITY);
         for (run, (of, turned)) in self.recording.runs().iter().zip(self.turned).enumerate() {
             if let Some(first) = of.imu().first()
-                && !(0.0..MAX_SESSION).contains(&(first.t - begin))
+                && !(0.0..max_session).contains(&(first.t - begin))
             {
                 session += 1;
                 begin = first.t;
@@ -101,7 +79,7 @@ impl Drive<'_> {
                 let within = self.jumps[run].iter().filter(|jump| (first..last).contains(*jump));
                 for end in within.copied().chain([last]).collect::<Vec<_>>() {
                     let poses = std::mem::replace(&mut first, end)..end;
-                    if poses.len() >= MIN_ROW {
+                    if poses.len() >= min_row {
                         let samples = of.poses()[poses.clone()].iter();
                         let (times, yaws) =
                             samples.map(|sample| (sample.t, sample.pose.yaw)).unzip();
@@ -133,51 +111,55 @@ pub(super) struct Fit {
 
 impl Fit {
     /// A fit before any value is known but a lag, s.
-    fn start(lag: f64) -> Self {
-        let (scale, scale_deviation) = (1.0, SCALE_PRIOR);
+    fn start(lag: f64, settings: &Settings) -> Self {
+        let (scale, scale_deviation) = (1.0, settings.scale_prior);
         Self { scale, scale_deviation, lag, level: Level::DIFFERENCES }
     }
 
     /// The lag that fits best of those near none, and near a clock offset, s.
     pub(super) fn best_lag(drive: &Drive, tau: f64) -> Result<f64, Unfit> {
+        let &Settings { max_lag, lag_step, min_poses, .. } = drive.settings;
         #[expect(clippy::cast_possible_truncation, reason = "a small count")]
-        let steps = (MAX_LAG / LAG_STEP).round() as i32;
+        let steps = (max_lag / lag_step).round() as i32;
         let starts = [0.0, tau].into_iter();
         let lags =
-            starts.flat_map(|at| (-steps..=steps).map(move |step| at + LAG_STEP * f64::from(step)));
+            starts.flat_map(|at| (-steps..=steps).map(move |step| at + lag_step * f64::from(step)));
         let covered = |lag: f64| drive.rows(lag).iter().map(|row| row.poses.len()).sum::<usize>();
         let lags: Vec<(f64, usize)> = lags.map(|lag| (lag, covered(lag))).collect();
         let most = lags.iter().map(|(_, poses)| *poses).max().unwrap_or(0);
         // A few poses scatter little by chance.
         let often = lags.into_iter().filter(|(_, poses)| 2 * poses >= most);
-        let misfit = |(lag, _): (f64, usize)| Some((Self::start(lag).with_best_scale(drive)?, lag));
+        let misfit = |(lag, _): (f64, usize)| {
+            Some((Self::start(lag, drive.settings).with_best_scale(drive)?, lag))
+        };
         let best = often.filter_map(misfit).min_by(|a, b| a.0.total_cmp(&b.0));
-        best.map(|(_, lag)| lag).ok_or(Unfit::TooFewPoses { found: most })
+        best.map(|(_, lag)| lag).ok_or(Unfit::TooFewPoses { found: most, needed: min_poses })
     }
 
     /// The best fit near a lag, s: quick changes tell the lag, turns over longer times the scale.
     pub(super) fn near(drive: &Drive, lag: f64) -> Result<Self, Unfit> {
-        let quick = Self::start(lag).settled(drive, lag, None)?;
-        quick.settled(drive, quick.lag, Some(SCALE_INTERVAL))
+        let quick = Self::start(lag, drive.settings).settled(drive, lag, None)?;
+        quick.settled(drive, quick.lag, Some(drive.settings.scale_interval))
     }
 
     /// The fit after steps until it settles, of which the lag starts at `lag`, s: by differences of
     /// poses; or by those of means over a time, s, with the lag it has.
     fn settled(self, drive: &Drive, lag: f64, over: Option<f64>) -> Result<Self, Unfit> {
+        let &Settings { max_steps, lag_step, min_poses, .. } = drive.settings;
         let mut fit = self;
-        for _ in 0..ITERATIONS {
+        for _ in 0..max_steps {
             let rows = drive.rows(fit.lag);
-            let (step, variance) = fit.step(&fit.whitened(&rows, over), lag);
+            let (step, variance) = fit.step(&fit.whitened(&rows, over), lag, drive.settings);
             fit.scale_deviation = variance.sqrt();
             fit.scale += step.x;
-            fit.lag += step.y.clamp(-LAG_STEP, LAG_STEP);
+            fit.lag += step.y.clamp(-lag_step, lag_step);
             let rows = drive.rows(fit.lag);
             let residuals = rows.iter().map(|row| &row.times[..]).zip(fit.residuals(&rows));
-            let Some(level) = Level::of(&residuals.collect::<Vec<_>>()) else {
+            let Some(level) = Level::of(&residuals.collect::<Vec<_>>(), drive.settings) else {
                 let rows = rows.iter().map(|row| row.poses.len());
                 let (found, longest) = (rows.clone().sum(), rows.max().unwrap_or(0));
-                return Err(if found < MIN_POSES {
-                    Unfit::TooFewPoses { found }
+                return Err(if found < min_poses {
+                    Unfit::TooFewPoses { found, needed: min_poses }
                 } else {
                     Unfit::ShortRows { longest }
                 });
@@ -197,7 +179,8 @@ impl Fit {
         let product: f64 = by_scale.iter().zip(&residual).map(|(by, r)| by * r).sum();
         let change = if square > 0.0 { product / square } else { 0.0 };
         let left = residual.iter().zip(&by_scale).map(|(r, by)| r - change * by);
-        deviation_about_zero(&mut of_turns(&left.collect::<Vec<_>>(), &by_scale))
+        let least = drive.settings.min_turning;
+        deviation_about_zero(&mut of_turns(&left.collect::<Vec<_>>(), &by_scale, least))
     }
 
     /// Residuals r = ψ − s G(t − τ) − b t of some rows, with the bias that fits each session.
@@ -299,10 +282,11 @@ impl Fit {
     /// # Law
     /// H⁻¹ (Σ ψ(r)² j jᵀ + P) H⁻¹, with ψ Huber's function of a residual r, j its derivatives,
     /// H = Σ ψ′(r) j jᵀ + P, and P the precision before the measurement.
-    fn step(&self, rows: &Whitened, start: f64) -> (Vector2<f64>, f64) {
-        let spread = deviation_about_zero(&mut of_turns(&rows.residual, &rows.by[0]));
+    fn step(&self, rows: &Whitened, start: f64, settings: &Settings) -> (Vector2<f64>, f64) {
+        let &Settings { min_turning, scale_prior, lag_prior, .. } = settings;
+        let spread = deviation_about_zero(&mut of_turns(&rows.residual, &rows.by[0], min_turning));
         let spread = spread.unwrap_or(1.0).max(f64::MIN_POSITIVE);
-        let priors = Vector2::new(SCALE_PRIOR, LAG_PRIOR).map(|deviation| deviation.powi(-2));
+        let priors = Vector2::new(scale_prior, lag_prior).map(|deviation| deviation.powi(-2));
         let from = Vector2::new(1.0 - self.scale, start - self.lag);
         let mut matrix = Matrix2::from_diagonal(&priors);
         let mut right = priors.component_mul(&from);
@@ -322,13 +306,11 @@ impl Fit {
     }
 }
 
-/// The values at turns: those at rest, which a derivative next to none marks, scatter by another
-/// noise. All of them without turns.
-fn of_turns(values: &[f64], by: &[f64]) -> Vec<f64> {
-    /// Least derivative of a turn, as share of their root mean square.
-    const MIN_DERIVATIVE: f64 = 0.3;
+/// The values at turns: those at rest scatter by another noise. Their derivative is less than
+/// `least` of the root mean square. All of them without turns.
+fn of_turns(values: &[f64], by: &[f64], least: f64) -> Vec<f64> {
     let square = by.iter().map(|by| by * by).sum::<f64>() / real(by.len().max(1));
-    let least = MIN_DERIVATIVE * square.sqrt();
+    let least = least * square.sqrt();
     let turns = values.iter().zip(by).filter(|(_, by)| by.abs() >= least);
     turns.map(|(value, _)| *value).collect()
 }

@@ -10,6 +10,7 @@
 //! Harvey, Forecasting, structural time series models and the Kalman filter, 1989; Rauch, Tung,
 //! Striebel, AIAA Journal 3(8), 1965 (smoother).
 
+use super::Settings;
 use nalgebra::{Matrix2, Matrix3, RowVector2, Vector2, Vector3};
 use trackdyn_core::real;
 use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, median};
@@ -20,28 +21,8 @@ const MIN_WHITE: f64 = 1e-12;
 /// Smallest variance of the walk, rad²/s.
 const MIN_WALK: f64 = 1e-14;
 
-/// Fewest differences for a variance.
-const MIN_DIFFERENCES: usize = 20;
-
-/// Longest difference, in values.
-const MAX_STEPS: usize = 512;
-
-/// Longest difference, as share of its row: a bias that is fitted to a row takes what a walk does
-/// over all of it.
-const MAX_SHARE: f64 = 1.0 / 6.0;
-
-/// Fall of chi-squared from which on an error that wanders about zero is told from a walk: three
-/// standard deviations.
-const MIN_FALL: f64 = 9.0;
-
 /// Relative variance of a variance that n squares show by their median, times n.
 const VARIANCE_OF_MEDIAN: f64 = 5.4;
-
-/// Largest innovation that a smoother believes, in standard deviations: one of 1,500 is larger.
-const MAX_INNOVATION: f64 = 3.4;
-
-/// Times of correlation that are tried, s.
-const CORRELATION_TIMES: [f64; 6] = [0.1, 0.3, 1.0, 3.0, 10.0, 30.0];
 
 /// Its variances.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -130,14 +111,15 @@ impl Level {
             .collect()
     }
 
-    /// The walk at each time by all values. An innovation counts as [`MAX_INNOVATION`] at most.
-    pub(super) fn smoothed(&self, times: &[f64], values: &[f64]) -> Vec<f64> {
+    /// The walk at each time by all values. An innovation counts as `most` standard deviations at
+    /// most.
+    pub(super) fn smoothed(&self, times: &[f64], values: &[f64], most: f64) -> Vec<f64> {
         let Some(&first) = values.first() else { return Vec::new() };
         let mut all = vec![self.first(first)];
         let steps = self.steps(times);
         for (value, step) in values.iter().skip(1).zip(&steps) {
             let mean = step.forward * all[all.len() - 1].mean;
-            let largest = MAX_INNOVATION / step.inverse;
+            let largest = most / step.inverse;
             let mean = mean + step.gain * (value - mean.sum()).clamp(-largest, largest);
             all.push(Known { mean, covariance: step.after });
         }
@@ -154,14 +136,17 @@ impl Level {
 
     /// The variances that the differences of some rows of times and values show: the law is fitted
     /// to their median squares. None of too few.
-    pub(super) fn of(rows: &[(&[f64], Vec<f64>)]) -> Option<Self> {
+    pub(super) fn of(rows: &[(&[f64], Vec<f64>)], settings: &Settings) -> Option<Self> {
         let doubled = std::iter::successors(Some(1), |steps| Some(2 * steps));
-        let tried = doubled.take_while(|steps| *steps <= MAX_STEPS);
-        let seen: Vec<Spread> = tried.map_while(|steps| Spread::of(rows, steps)).collect();
+        let tried = doubled.take_while(|steps| *steps <= settings.max_difference_steps);
+        let seen: Vec<Spread> =
+            tried.map_while(|steps| Spread::of(rows, steps, settings)).collect();
         let (misfit, plain) = fitted(&seen, None)?;
-        let fits = CORRELATION_TIMES.iter().filter_map(|&time| fitted(&seen, Some(time)));
+        let times = settings.correlation_times.iter();
+        let fits = times.filter_map(|&time| fitted(&seen, Some(time)));
         let best = fits.min_by(|a, b| a.0.total_cmp(&b.0));
-        let best = best.filter(|best| best.0 < misfit - MIN_FALL).map_or(plain, |best| best.1);
+        let best =
+            best.filter(|best| best.0 < misfit - settings.min_fall).map_or(plain, |best| best.1);
         Some(Self { white: best.white.max(MIN_WHITE), walk: best.walk.max(MIN_WALK), ..best })
     }
 }
@@ -176,12 +161,13 @@ struct Spread {
 }
 
 impl Spread {
-    fn of(rows: &[(&[f64], Vec<f64>)], steps: usize) -> Option<Self> {
+    fn of(rows: &[(&[f64], Vec<f64>)], steps: usize, settings: &Settings) -> Option<Self> {
+        let &Settings { max_difference_share, min_differences, .. } = settings;
         let (mut squares, mut time) = (Vec::new(), 0.0);
         for (times, values) in rows {
             let [Some(first), Some(last)] = [times.first(), times.last()] else { continue };
             let usual = (last - first) / real(times.len());
-            if real(steps) * usual > MAX_SHARE * (last - first) {
+            if real(steps) * usual > max_difference_share * (last - first) {
                 continue;
             }
             for k in steps..values.len() {
@@ -190,7 +176,7 @@ impl Spread {
             }
         }
         let count = squares.len();
-        if count < MIN_DIFFERENCES * steps.min(8) {
+        if count < min_differences * steps.min(8) {
             return None;
         }
         let variance = (median(&mut squares)? / MEDIAN_OF_CHI_SQUARE).max(MIN_WHITE);
@@ -287,7 +273,7 @@ mod tests {
         // The errors given the differences; the walk is what they leave of the values.
         let expected =
             DVector::from(values.clone()) - &errors * from_first.transpose() * &inverse * &seen;
-        for (k, level) in LEVEL.smoothed(&times, &values).into_iter().enumerate() {
+        for (k, level) in LEVEL.smoothed(&times, &values, 3.4).into_iter().enumerate() {
             assert!((level - expected[k]).abs() < 1e-10, "{k}: {level} {}", expected[k]);
         }
     }
@@ -304,7 +290,7 @@ mod tests {
             (variance - 1.0).abs() < 0.05 && correlation.abs() < 0.03,
             "{variance} {correlation}"
         );
-        let found = Level::of(&[(&times, values)]).expect("enough");
+        let found = Level::of(&[(&times, values)], &Settings::default()).expect("enough");
         assert!((found.white / LEVEL.white).ln().abs() < 0.2, "{found:?}");
         assert!((found.wander / LEVEL.wander).ln().abs() < 0.3, "{found:?}");
         assert!((found.walk / LEVEL.walk).ln().abs() < 0.7, "{found:?}");

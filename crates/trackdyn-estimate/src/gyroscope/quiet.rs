@@ -4,9 +4,6 @@ use super::fit::Drive;
 use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, median, usual_interval};
 use trackdyn_recording::{Run, hold};
 
-/// Fewest readings at stand-still that tell the noise alone.
-const MIN_STILL: usize = 100;
-
 /// Variance per second of the random walk of the integral, rad²/s: that of a reading times the time
 /// between two. What the robot does adds to it where it never stands.
 pub(super) fn walk(drive: &Drive) -> f64 {
@@ -18,7 +15,7 @@ pub(super) fn walk(drive: &Drive) -> f64 {
             all.extend(any);
         }
     }
-    let scatter = if still.len() >= MIN_STILL { still } else { all };
+    let scatter = if still.len() >= drive.settings.min_still { still } else { all };
     let mut squares: Vec<f64> = scatter.iter().map(|off| off * off).collect();
     let variance = median(&mut squares).unwrap_or(0.0) / MEDIAN_OF_CHI_SQUARE;
     let runs = drive.recording.runs().iter();

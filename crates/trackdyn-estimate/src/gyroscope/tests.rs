@@ -14,6 +14,10 @@ const BIAS: f64 = 0.02;
 const SCALE: f64 = 1.03;
 const DELAY: f64 = 0.04;
 
+fn by_gyroscope(recording: &Recording) -> Result<Corrected, Unfit> {
+    with_gyroscope(recording, 0.0, &Settings::default())
+}
+
 /// Two drives of a minute with poses of this noise.
 fn synthetic(yaw_noise: f64, seed: u64) -> Synthetic {
     Synthetic {
@@ -76,7 +80,7 @@ fn yaw_is_better_with_a_gyroscope_whose_errors_are_found() {
     let synthetic = synthetic(YAW_NOISE, 1);
     let raw = with_readings(&synthetic, 0.002, 1.0);
     let Corrected { recording: fused, gyroscope: found, .. } =
-        with_gyroscope(&raw, 0.0).expect("it serves");
+        by_gyroscope(&raw).expect("it serves");
     assert!((found.scale / SCALE - 1.0).abs() < 0.003, "{found:?}");
     // Between two readings the rate is taken as linear: a step in it seems 5 ms early.
     assert!((found.lag - DELAY - 0.005).abs() < 0.002, "{found:?}");
@@ -94,7 +98,7 @@ fn a_gyroscope_that_made_the_yaw_of_the_poses_tells_what_lies_between() {
     let rare = Synthetic { pose_interval: 1.0, ..synthetic(0.0, 12) };
     let raw = with_readings(&rare, 0.002, 1.0);
     let runs = raw.runs().iter().map(|run| {
-        let turned = Turned::of_run(run);
+        let turned = Turned::of_run(run, 8);
         let mut rows = run.clone().into_rows();
         rows.poses.samples.retain(|pose| {
             let [start, end] = turned[0].span();
@@ -106,7 +110,7 @@ fn a_gyroscope_that_made_the_yaw_of_the_poses_tells_what_lies_between() {
         Run::new(rows, &mut Vec::new())
     });
     let own = raw.with_runs(runs.collect());
-    let corrected = with_gyroscope(&own, 0.0).expect("it serves");
+    let corrected = by_gyroscope(&own).expect("it serves");
     let filled = corrected.filled(|_| 0.1).recording;
     let count = |of: &Recording| of.runs().iter().map(|run| run.poses().len()).sum::<usize>();
     assert!(count(&filled) > 9 * count(&own), "{} {}", count(&filled), count(&own));
@@ -121,7 +125,7 @@ fn a_gyroscope_that_made_the_yaw_of_the_poses_tells_what_lies_between() {
 #[test]
 fn a_gyroscope_that_is_worse_than_the_poses_is_left_out() {
     let raw = with_readings(&synthetic(0.002, 2), 1.0, 1.0);
-    let refused = with_gyroscope(&raw, 0.0).expect_err("worse");
+    let refused = by_gyroscope(&raw).expect_err("worse");
     assert!(matches!(refused, Unfit::NoBetter { .. }), "{refused:?}");
 }
 
@@ -130,11 +134,11 @@ fn a_gyroscope_in_degrees_and_one_upside_down_are_refused() {
     let synthetic = synthetic(YAW_NOISE, 3);
     for unit in [57.3, -1.0] {
         let raw = with_readings(&synthetic, 0.002, unit);
-        let refused = with_gyroscope(&raw, 0.0);
+        let refused = by_gyroscope(&raw);
         let Err(Unfit::Scale { scale }) = refused else { panic!("{unit}: {refused:?}") };
         assert!((scale * unit / SCALE - 1.0).abs() < 0.1, "{unit}: {scale}");
     }
-    let without = with_gyroscope(&synthetic.recording().expect("long enough"), 0.0);
+    let without = by_gyroscope(&synthetic.recording().expect("long enough"));
     assert_eq!(without.expect_err("no gyroscope"), Unfit::NoReadings);
 }
 
@@ -153,7 +157,7 @@ fn a_jump_of_the_poses_stays_where_it_is() {
         Run::new(rows, &mut Vec::new())
     });
     let jumped = raw.with_runs(runs.collect());
-    let fused = with_gyroscope(&jumped, 0.0).expect("it serves").recording;
+    let fused = by_gyroscope(&jumped).expect("it serves").recording;
     for (run, jumped) in fused.runs().iter().zip(jumped.runs()) {
         let middle = run.poses().len() / 2;
         for k in middle - 20..middle + 20 {
@@ -182,7 +186,7 @@ fn late_stamps_are_no_jumps() {
         Run::new(rows, &mut Vec::new())
     });
     let late = raw.with_runs(runs.collect());
-    let Corrected { gyroscope, .. } = with_gyroscope(&late, 0.0).expect("it serves");
+    let Corrected { gyroscope, .. } = by_gyroscope(&late).expect("it serves");
     let of: usize = late.runs().iter().map(|run| run.poses().len()).sum();
     assert!(gyroscope.poses + 4 >= of, "{gyroscope:?} of {of}");
     assert!(gyroscope.error_with_it < 0.1 * gyroscope.error_of_poses, "{gyroscope:?}");
@@ -195,7 +199,7 @@ fn short_rows_say_so() {
         schedules: (0..60).map(|seed| random_steps(4, 0.25, 0.8, seed)).collect(),
         ..synthetic(0.002, 8)
     };
-    let refused = with_gyroscope(&with_readings(&short, 0.002, 1.0), 0.0).expect_err("too short");
+    let refused = by_gyroscope(&with_readings(&short, 0.002, 1.0)).expect_err("too short");
     assert!(matches!(refused, Unfit::ShortRows { .. }), "{refused:?}");
 }
 
@@ -208,7 +212,7 @@ fn the_interval_of_the_distance_holds_the_error_of_the_scale() {
     for seed in 0..DRIVES {
         let raw = with_readings(&synthetic(YAW_NOISE, 10 + u64::from(seed)), 0.002, 1.0);
         let Corrected { recording: fused, gyroscope: found, .. } =
-            with_gyroscope(&raw, 0.0).expect("it serves");
+            by_gyroscope(&raw).expect("it serves");
         let gap = |recording: &Recording, yaw_scale: f64| {
             let options = Options { yaw_scale, ..Options::new(0.42) };
             icrs_alone(recording, &options).expect("it turns").gap()
@@ -227,7 +231,7 @@ fn the_interval_of_the_distance_holds_the_error_of_the_scale() {
 #[test]
 fn yaw_between_rare_poses_is_that_of_the_gyroscope() {
     let rare = Synthetic { pose_interval: 1.0, ..synthetic(0.002, 6) };
-    let corrected = with_gyroscope(&with_readings(&rare, 0.002, 1.0), 0.0).expect("it serves");
+    let corrected = by_gyroscope(&with_readings(&rare, 0.002, 1.0)).expect("it serves");
     let Filled { recording, has_place } = corrected.filled(|_| 0.1);
     let often = Synthetic { pose_interval: 0.1, position_noise: 0.0, yaw_noise: 0.0, ..rare };
     let exact = often.recording().expect("long enough");
@@ -274,7 +278,7 @@ fn poses_at_rest_do_not_tell_how_well_the_scale_is_known() {
             Run::new(rows, &mut Vec::new())
         });
         let noisy = recording.with_runs(runs.collect());
-        let found = with_gyroscope(&noisy, 0.0).expect("it serves").gyroscope;
+        let found = by_gyroscope(&noisy).expect("it serves").gyroscope;
         squares += ((found.scale - SCALE) / found.scale_deviation).powi(2) / f64::from(DRIVES);
     }
     // A mean square of 24 normal deviates lies below 1.9 but once in a hundred times.

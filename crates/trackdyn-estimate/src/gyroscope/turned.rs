@@ -4,9 +4,6 @@ use trackdyn_core::robust::usual_interval;
 use trackdyn_recording::Run;
 use trackdyn_recording::recording::longest_interval;
 
-/// Fewest readings in a row.
-const MIN_READINGS: usize = 8;
-
 /// Readings of a gyroscope without a gap between them, and their integral.
 pub(super) struct Turned {
     times: Vec<f64>,
@@ -16,12 +13,12 @@ pub(super) struct Turned {
 }
 
 impl Turned {
-    /// The readings of a run, between its gaps.
-    pub(super) fn of_run(run: &Run) -> Vec<Self> {
+    /// The readings of a run between its gaps, where these are so many in a row.
+    pub(super) fn of_run(run: &Run, min_readings: usize) -> Vec<Self> {
         let readings = run.imu();
         let longest = longest_interval(usual_interval(readings.iter().map(|reading| reading.t)));
         let rows = readings.chunk_by(|a, b| b.t - a.t <= longest);
-        let long = rows.filter(|row| row.len() >= MIN_READINGS);
+        let long = rows.filter(|row| row.len() >= min_readings);
         long.map(|row| {
             let (times, rates) = row.iter().map(|reading| (reading.t, reading.gyro_z)).unzip();
             Self::new(times, rates)

@@ -3,6 +3,7 @@
 
 use super::covariance::{inverse, jackknife};
 use super::{Estimate, Loss, Unknowns};
+use crate::blocks::Blocks;
 use crate::observations::{Observation, Observations};
 use crate::parameters::{COUNT, Parameters};
 use crate::prediction::Lanes;
@@ -169,7 +170,7 @@ impl Linearisation {
         let (matrix, _) = self.normal_equations(&weights);
         let curvatures = self.curvatures(loss);
         let (curvature, _) = self.normal_equations(&curvatures);
-        let blocks = observations.blocks();
+        let blocks = observations.blocks(Blocks::MIN_WHOLE_RUNS);
         let ranges = observations.ranges(&blocks).into_iter();
         let parts: Vec<_> = ranges
             .map(|range| {

@@ -1,21 +1,17 @@
 //! Noise of encoder speeds.
 
-use super::{EncoderNoise, Method};
+use super::{EncoderNoise, Method, Settings};
 use trackdyn_core::Side;
 use trackdyn_core::robust::{deviation_about_zero, median};
 use trackdyn_recording::{Recording, TrackSample};
 
-/// Smallest number of triples for an estimate.
-const MIN_TRIPLES: usize = 30;
-
-/// Longest time, s, and largest number of readings for which a measured speed stays the same: a
-/// speed that is held longer is a command, not a measurement.
-const MAX_HOLD_TIME: f64 = 0.5;
-const MAX_HOLD_READINGS: f64 = 10.0;
-
 /// The noise of one side while its track runs. None where the speeds are commands, whose changes
 /// are the driving.
-pub(super) fn noise(recording: &Recording, side: Side) -> Option<EncoderNoise> {
+pub(super) fn noise(
+    recording: &Recording,
+    side: Side,
+    settings: &Settings,
+) -> Option<EncoderNoise> {
     let speed = |sample: &TrackSample| match side {
         Side::Left => sample.v_left,
         Side::Right => sample.v_right,
@@ -46,11 +42,12 @@ pub(super) fn noise(recording: &Recording, side: Side) -> Option<EncoderNoise> {
             intervals.push(t_b - t_a);
         }
     }
-    if residuals.len() < MIN_TRIPLES {
+    if residuals.len() < settings.min_triples {
         return None;
     }
     let update_interval = median(&mut intervals)?;
-    if update_interval > MAX_HOLD_TIME.min(MAX_HOLD_READINGS * median(&mut readings)?) {
+    let by_readings = settings.max_hold_readings * median(&mut readings)?;
+    if update_interval > settings.max_hold_time.min(by_readings) {
         return None;
     }
     let triples = residuals.len();

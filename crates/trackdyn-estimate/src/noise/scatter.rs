@@ -1,5 +1,6 @@
 //! Noise of a table of steady operating points.
 
+use super::Settings;
 use trackdyn_core::real;
 use trackdyn_core::robust::deviation_about_zero;
 use trackdyn_recording::OperatingPoint;
@@ -41,21 +42,19 @@ fn line_triples(
     triples
 }
 
-/// Smallest number of triples of neighbours for an estimate.
-const MIN_TRIPLES: usize = 10;
-
 /// Standard deviation of a channel, in its unit, from neighbours on lines of one track speed; no
 /// model enters. None without enough of them.
 pub fn scatter(
     points: &[OperatingPoint],
     channel: impl Fn(&OperatingPoint) -> Option<f64>,
+    settings: &Settings,
 ) -> Option<f64> {
     // The ICRs may jump where a track changes its direction.
     let jumps = |[x, y, z]: [f64; 3]| x * y < 0.0 || y * z < 0.0 || x.abs().min(z.abs()) < 1e-9;
     let triples = line_triples(points, channel).into_iter();
     let smooth = triples.filter(|triple| !jumps(triple.across));
     let mut off: Vec<f64> = smooth.map(|triple| triple.off).collect();
-    if off.len() < MIN_TRIPLES {
+    if off.len() < settings.min_line_triples {
         return None;
     }
     let rms = (off.iter().map(|off| off * off).sum::<f64>() / real(off.len())).sqrt();
@@ -83,9 +82,10 @@ mod tests {
 
     #[test]
     fn scatter_is_of_smooth_lines_that_are_long_enough() {
-        let found = scatter(&line(18), |point| point.yaw_rate).expect("a scatter");
+        let found = |count| scatter(&line(count), |point| point.yaw_rate, &Settings::default());
+        let long = found(18).expect("a scatter");
         // 2e-3 off, over √1.5, in place of a standard deviation: 1.48 times the median
-        assert!((found / (1.4826 * 2e-3 / 1.5_f64.sqrt()) - 1.0).abs() < 0.01, "{found}");
-        assert_eq!(scatter(&line(6), |point| point.yaw_rate), None);
+        assert!((long / (1.4826 * 2e-3 / 1.5_f64.sqrt()) - 1.0).abs() < 0.01, "{long}");
+        assert_eq!(found(6), None);
     }
 }

@@ -6,8 +6,8 @@
 //! likelihood with heavy tails over all triples. An error of the stamps is told only where the
 //! likelihood asks for it clearly.
 
-use super::Component;
-use crate::variances::{Climb, LN_ZERO, MIN_GAIN, heavy_tailed};
+use super::{Component, Settings};
+use crate::variances::{Climb, LN_ZERO, heavy_tailed};
 use nalgebra::{Matrix3, SVector, Vector3};
 use trackdyn_core::real;
 use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE_3, median};
@@ -28,12 +28,6 @@ pub(super) struct Triple {
     pub is_clean: bool,
 }
 
-/// Degrees of freedom of the tails.
-const TAILS: f64 = 5.0;
-
-/// Most triples that are looked at.
-const MAX_TRIPLES: usize = 4000;
-
 /// How variances are found: to a hundredth of themselves.
 const CLIMB: Climb = Climb { max_steps: 60, min_gain: 0.01, max_step: 1.5, difference: 1e-3 };
 
@@ -45,9 +39,13 @@ const STAMP: usize = 6;
 
 /// Noise along the axes and standard deviation of the stamps, s; none where the stamps show no
 /// error. `start` is the noise without it.
-pub(super) fn stamps(triples: &[Triple], start: [Component; 3]) -> Option<([Component; 3], f64)> {
+pub(super) fn stamps(
+    triples: &[Triple],
+    start: [Component; 3],
+    settings: &Settings,
+) -> Option<([Component; 3], f64)> {
     let triples: Vec<&Triple> = triples.iter().filter(|triple| triple.is_clean).collect();
-    let stride = triples.len().div_ceil(MAX_TRIPLES).max(1);
+    let stride = triples.len().div_ceil(settings.max_stamp_triples).max(1);
     let triples: Vec<&Triple> = triples.into_iter().step_by(stride).collect();
     let mean_square = |of: &dyn Fn(&Triple) -> f64| {
         triples.iter().map(|triple| of(triple).powi(2)).sum::<f64>() / real(triples.len().max(1))
@@ -61,7 +59,7 @@ pub(super) fn stamps(triples: &[Triple], start: [Component; 3]) -> Option<([Comp
         let term = |triple: &&Triple| {
             let white = whitened(triple, &variances);
             white.map_or(f64::NEG_INFINITY, |(ln_determinant, square)| {
-                heavy_tailed(ln_determinant, square, 3, TAILS)
+                heavy_tailed(ln_determinant, square, 3, settings.tails)
             })
         };
         triples.iter().map(term).collect()
@@ -88,7 +86,7 @@ pub(super) fn stamps(triples: &[Triple], start: [Component; 3]) -> Option<([Comp
     let deviation = |k: usize| (level * variances[k]).sqrt();
     let noise =
         [0, 1, 2].map(|axis| Component { white: deviation(axis), walk: deviation(3 + axis) });
-    (value > plain + MIN_GAIN).then(|| (noise, deviation(STAMP)))
+    (value > plain + settings.min_stamp_gain).then(|| (noise, deviation(STAMP)))
 }
 
 /// ln det L⁻¹ and |L⁻¹ e|² of the e of a triple, whose covariance is W (R + s² u uᵀ) + T q = L Lᵀ;
@@ -107,7 +105,7 @@ fn whitened(triple: &Triple, variances: &Logarithms) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use crate::identification::{Options, icrs_alone};
-    use crate::noise::noise;
+    use crate::noise::{Settings, noise};
     use crate::synthetic::{Synthetic, random_steps};
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
@@ -150,7 +148,8 @@ mod tests {
     #[test]
     fn errors_of_stamps_are_told_from_white_noise() {
         let found = |jitter: f64, seed: u64| {
-            noise(&jittered(jitter, seed), 0.0).moving.expect("it moves steadily")
+            let found = noise(&jittered(jitter, seed), 0.0, &Settings::default());
+            found.moving.expect("it moves steadily")
         };
         for seed in [1, 2, 3] {
             assert_eq!(found(0.0, seed).stamp, 0.0, "{seed}");

@@ -1,7 +1,7 @@
 //! Triples of poses and the noise they show.
 
 use super::stamps::{Triple, stamps};
-use super::{Component, Method, PoseNoise};
+use super::{Component, Method, PoseNoise, Settings};
 use crate::gaps::Gaps;
 use nalgebra::Vector3;
 use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, median};
@@ -11,22 +11,6 @@ use trackdyn_recording::{PoseSample, Recording, Run};
 
 /// Steps between the poses of a triple.
 const STEPS: [usize; 4] = [1, 2, 4, 8];
-
-/// Longest triple, s: longer ones show driving, not noise.
-const MAX_DURATION: f64 = 2.5;
-
-/// Largest turn between two poses of a triple, rad: the propagation of noise through
-/// [`trackdyn_core::Pose::log`] is that of small turns.
-const MAX_TURN: f64 = 1.0;
-
-/// Smallest number of triples for an estimate.
-const MIN_TRIPLES: usize = 30;
-
-/// Time after which a robot whose encoders show zero stands, also in late poses, s.
-const SETTLING_TIME: f64 = 0.5;
-
-/// Largest difference of the speeds of the two halves of a triple, in standard deviations.
-const MAX_SPEED_CHANGE: f64 = 2.0;
 
 /// Triples of one number of steps.
 #[derive(Default)]
@@ -62,17 +46,17 @@ impl Group {
 
 /// Pose noise while the encoders of both sides show zero; `tau` is the clock offset of the poses,
 /// s.
-pub(super) fn standing(recording: &Recording, tau: f64) -> Option<PoseNoise> {
+pub(super) fn standing(recording: &Recording, tau: f64, settings: &Settings) -> Option<PoseNoise> {
     let mut groups: [Group; 4] = Default::default();
     for run in recording.runs() {
-        for [from, until] in still(run) {
+        for [from, until] in still(run, settings.settling_time) {
             let poses = run.poses();
             let first = poses.partition_point(|sample| sample.t - tau < from);
             let after = poses.partition_point(|sample| sample.t - tau <= until);
-            gather(poses.get(first..after).unwrap_or_default(), &mut groups, |_| true);
+            gather(poses.get(first..after).unwrap_or_default(), &mut groups, settings, |_| true);
         }
     }
-    figures(groups, Method::StandStill)
+    figures(groups, Method::StandStill, settings)
 }
 
 /// Pose noise while the speeds of both sides stay the same within their noise.
@@ -80,20 +64,22 @@ pub(super) fn moving(
     recording: &Recording,
     tau: f64,
     deviation: PerSide<Option<f64>>,
+    settings: &Settings,
 ) -> Option<PoseNoise> {
     let mut groups: [Group; 4] = Default::default();
     for run in recording.runs() {
         let gaps = Gaps::of(run.tracks());
         let is_known = |a: &PoseSample, c: &PoseSample| !gaps.meet(a.t - tau, c.t - tau);
-        gather(run.poses(), &mut groups, |triple| {
-            is_known(triple[0], triple[2]) && is_steady(run, triple, tau, deviation)
+        let allowed = deviation.map(|one| one.unwrap_or(0.0) * settings.max_speed_change);
+        gather(run.poses(), &mut groups, settings, |triple| {
+            is_known(triple[0], triple[2]) && is_steady(run, triple, tau, allowed)
         });
     }
-    figures(groups, Method::SteadyIncrements)
+    figures(groups, Method::SteadyIncrements, settings)
 }
 
-/// Times of a run during which the robot stands.
-fn still(run: &Run) -> Vec<[f64; 2]> {
+/// Times of a run during which the robot stands, from a settling time on, s.
+fn still(run: &Run, settling_time: f64) -> Vec<[f64; 2]> {
     let tracks = run.tracks();
     let stretches = tracks.chunk_by(|a, b| {
         let stands = |v_left: f64, v_right: f64| v_left == 0.0 && v_right == 0.0;
@@ -101,17 +87,13 @@ fn still(run: &Run) -> Vec<[f64; 2]> {
     });
     stretches
         .filter(|stretch| stretch[0].v_left == 0.0 && stretch[0].v_right == 0.0)
-        .map(|stretch| [stretch[0].t + SETTLING_TIME, stretch[stretch.len() - 1].t])
+        .map(|stretch| [stretch[0].t + settling_time, stretch[stretch.len() - 1].t])
         .collect()
 }
 
-/// Whether the tracks move, and in the second half as in the first.
-fn is_steady(
-    run: &Run,
-    [a, b, c]: [&PoseSample; 3],
-    tau: f64,
-    deviation: PerSide<Option<f64>>,
-) -> bool {
+/// Whether the tracks move, and in the second half as in the first but for an `allowed` error of a
+/// reading, m/s.
+fn is_steady(run: &Run, [a, b, c]: [&PoseSample; 3], tau: f64, allowed: PerSide<f64>) -> bool {
     let tracks = run.tracks();
     let (Some(first), Some(last)) = (tracks.first(), tracks.last()) else { return false };
     if a.t - tau < first.t || c.t - tau > last.t {
@@ -129,15 +111,15 @@ fn is_steady(
     let moves = Side::BOTH.iter().any(|&side| before[side] != 0.0);
     moves
         && Side::BOTH.iter().all(|&side| {
-            let allowed = deviation[side].unwrap_or(0.0) * MAX_SPEED_CHANGE * spread;
             // Without noise, rounding of the means is what is left.
-            (after[side] - before[side]).abs() <= allowed.max(1e-9)
+            (after[side] - before[side]).abs() <= (allowed[side] * spread).max(1e-9)
         })
 }
 
 fn gather(
     poses: &[PoseSample],
     groups: &mut [Group; 4],
+    settings: &Settings,
     accept: impl Fn([&PoseSample; 3]) -> bool,
 ) {
     let at = |index: Option<usize>| index.and_then(|index| poses.get(index));
@@ -145,8 +127,9 @@ fn gather(
         for (index, triple) in poses.windows(2 * steps + 1).enumerate() {
             let triple = [&triple[0], &triple[steps], &triple[2 * steps]];
             let turn = |from: usize| triple[from + 1].pose.yaw - triple[from].pose.yaw;
-            let is_small = turn(0).abs() <= MAX_TURN && turn(1).abs() <= MAX_TURN;
-            if is_small && triple[2].t - triple[0].t <= MAX_DURATION && accept(triple) {
+            let is_small = [0, 1].into_iter().all(|from| turn(from).abs() <= settings.max_turn);
+            let is_short = triple[2].t - triple[0].t <= settings.max_duration;
+            if is_small && is_short && accept(triple) {
                 let around = (at(index.checked_sub(1)), at(Some(index + 2 * steps + 1)));
                 let is_amid = match around {
                     (Some(before), Some(after)) => accept([before, triple[1], after]),
@@ -159,15 +142,15 @@ fn gather(
     }
 }
 
-fn figures(groups: [Group; 4], method: Method) -> Option<PoseNoise> {
+fn figures(groups: [Group; 4], method: Method, settings: &Settings) -> Option<PoseNoise> {
     let count = groups[0].count();
-    if count < MIN_TRIPLES {
+    if count < settings.min_triples {
         return None;
     }
     let component = |coordinate: usize| {
         let mut rows = Vec::new();
         for (group, steps) in groups.iter().zip(STEPS) {
-            if group.count() < MIN_TRIPLES {
+            if group.count() < settings.min_triples {
                 continue;
             }
             let count = real(group.count());
@@ -182,7 +165,8 @@ fn figures(groups: [Group; 4], method: Method) -> Option<PoseNoise> {
     };
     let plain = [component(0)?, component(1)?, component(2)?];
     let triples: Vec<Triple> = groups.into_iter().flat_map(|group| group.triples).collect();
-    let ([forward, lateral, yaw], stamp) = stamps(&triples, plain).unwrap_or((plain, 0.0));
+    let ([forward, lateral, yaw], stamp) =
+        stamps(&triples, plain, settings).unwrap_or((plain, 0.0));
     let of_pose = plain.map(|component| component.white);
     Some(PoseNoise { forward, lateral, yaw, stamp, of_pose, triples: count, method })
 }

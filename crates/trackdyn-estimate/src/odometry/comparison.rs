@@ -57,7 +57,7 @@ impl Comparison {
         let options = SegmentOptions { tau, ..SegmentOptions::default() };
         let segments = stretch::of_segments(recording, &options);
         check(&segments, &paths, &options)?;
-        let blocks = Blocks::new(paths.iter().map(Path::extent));
+        let blocks = Blocks::new(paths.iter().map(Path::extent), Blocks::MIN_WHOLE_RUNS);
         let spans = Span::ALL.into_iter().filter_map(|span| {
             let stretches = stretch::joined(&segments, span);
             SpanErrors::new(span, &stretches, &paths, sets.len(), &blocks)

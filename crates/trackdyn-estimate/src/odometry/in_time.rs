@@ -14,7 +14,7 @@
 //! the answer of the forces, found from the path that they predict ([`delay`]).
 
 use super::covered::covered;
-use crate::clock::{Clock, ClockSearch, clock_offset};
+use crate::clock::{self, Clock, clock_offset};
 use trackdyn_core::{Plant, Pose, Stopped, Trajectory};
 use trackdyn_model::contact::Resolution;
 use trackdyn_model::{Model, Sensor, Transient, VehicleFile};
@@ -51,7 +51,7 @@ fn answer(recording: &Recording, file: &VehicleFile) -> Option<f64> {
     };
     let runs = recording.runs().iter().map(moved).collect::<Option<Vec<_>>>()?;
     let of_forces = Recording::new("forces", "forces", runs, Source::computed(), Vec::new());
-    Some(clock_offset(&of_forces.ok()?, &ClockSearch::default()).ok()?.tau)
+    Some(clock_offset(&of_forces.ok()?, &clock::Settings::default()).ok()?.tau)
 }
 
 fn model(file: &VehicleFile) -> Model {

@@ -9,7 +9,7 @@
 //! The scatter of yaw rates, found without a model: of each point between its neighbours on a line
 //! of constant track speed, against the straight line through these.
 
-use crate::noise::scatter;
+use crate::noise::{self, scatter};
 use trackdyn_recording::OperatingPoint;
 
 /// Smallest shortfall in standard deviations that is not chance: of a hundred thousand pairs of
@@ -37,7 +37,8 @@ pub fn lagging(points: &[OperatingPoint]) -> Vec<Lagging> {
         .enumerate()
         .filter_map(|(index, point)| Some((index, point, point.yaw_rate?)))
         .collect();
-    let Some(scatter) = scatter(points, |point| point.yaw_rate) else { return Vec::new() };
+    let scatter = scatter(points, |point| point.yaw_rate, &noise::Settings::default());
+    let Some(scatter) = scatter else { return Vec::new() };
     let mut found = Vec::new();
     for &(index, point, rate) in &turning {
         let sense = (point.v_right - point.v_left).signum();

@@ -1,12 +1,13 @@
 //! Which runs are held out.
 
-use crate::Error;
+use crate::{Error, MethodSettings};
 use trackdyn_recording::{Recording as Motion, RunList};
 
 /// Runs that nothing is fitted or chosen on.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum HeldOut {
-    /// [Every fourth](every_fourth) where there are enough, of a table every fourth point.
+    /// [Every fourth](every_fourth) where there are enough, of a table every fourth point; as the
+    /// group `held_out` of [`MethodSettings`] says.
     #[default]
     EveryFourth,
     /// None: the result is judged on what it was fitted to.
@@ -17,10 +18,14 @@ pub enum HeldOut {
 
 impl HeldOut {
     /// Indices of the runs of a recording.
-    pub(super) fn of_motion(&self, motion: &Motion) -> Result<Vec<usize>, Error> {
+    pub(super) fn of_motion(
+        &self,
+        motion: &Motion,
+        method: &MethodSettings,
+    ) -> Result<Vec<usize>, Error> {
         let count = motion.runs().len();
         let held_out = match self {
-            Self::EveryFourth => every_fourth(count),
+            Self::EveryFourth => method.held_out.of(count),
             Self::None => Vec::new(),
             Self::Runs(list) => motion
                 .indices_of(list)
@@ -33,9 +38,9 @@ impl HeldOut {
     }
 
     /// Indices of so many points of a table.
-    pub(super) fn of_points(&self, count: usize) -> Vec<usize> {
+    pub(super) fn of_points(&self, count: usize, method: &MethodSettings) -> Vec<usize> {
         match self {
-            Self::EveryFourth => every_fourth(count),
+            Self::EveryFourth => method.held_out.of(count),
             Self::None | Self::Runs(_) => Vec::new(),
         }
     }
@@ -49,17 +54,13 @@ impl HeldOut {
     }
 }
 
-/// Fewest runs of which some are held out unless the caller says otherwise: of fewer, none can be
-/// spared.
-const MIN_RUNS_TO_HOLD_OUT: usize = 8;
-
-/// The rule by which runs are held out unless the caller says otherwise: indices of every fourth of
-/// so many runs, or points of a table, where there are eight or more.
+/// The rule by which runs are held out unless settings say otherwise: indices of every fourth of so
+/// many runs, or points of a table, where there are eight or more.
 ///
 /// ```
 /// assert_eq!(trackdyn::diagnose::every_fourth(9), [3, 7]);
 /// assert!(trackdyn::diagnose::every_fourth(7).is_empty());
 /// ```
 pub fn every_fourth(runs: usize) -> Vec<usize> {
-    if runs < MIN_RUNS_TO_HOLD_OUT { Vec::new() } else { (3..runs).step_by(4).collect() }
+    MethodSettings::default().held_out.of(runs)
 }

@@ -3,9 +3,9 @@
 use super::travel::travel_ratio;
 use trackdyn_core::robust::usual_interval;
 use trackdyn_core::{PerSide, real};
-use trackdyn_estimate::gyroscope::{Gyroscope, Unfit, with_gyroscope};
-use trackdyn_estimate::noise::noise;
-use trackdyn_estimate::{Clock, Error, Observations, SegmentOptions, Separation};
+use trackdyn_estimate::gyroscope::{self, Gyroscope, Unfit, with_gyroscope};
+use trackdyn_estimate::noise::{self, noise};
+use trackdyn_estimate::{Clock, Error, Observations, SegmentOptions, Separation, clock};
 use trackdyn_recording::{Recording as Motion, Run, TrackSample};
 
 /// Share of the top speed below which a track stands.
@@ -98,7 +98,7 @@ impl Driving {
     pub(super) fn with_gyroscope(self, motion: &Motion) -> Self {
         let has_both = self.has_positions && self.imu.count > 0;
         let tau = self.clock.as_ref().map_or(0.0, Clock::tau);
-        let found = has_both.then(|| with_gyroscope(motion, tau));
+        let found = has_both.then(|| with_gyroscope(motion, tau, &gyroscope::Settings::default()));
         let gyroscope = found.map(|found| found.map(|corrected| corrected.gyroscope));
         Self { gyroscope, ..self }
     }
@@ -106,9 +106,9 @@ impl Driving {
     /// What was driven, without the gyroscope.
     pub(super) fn of(motion: &Motion, tau: Option<f64>) -> Self {
         let runs = motion.runs();
-        let clock = Clock::of(motion, tau);
+        let clock = Clock::of(motion, tau, &clock::Settings::default());
         let tau = clock.as_ref().map_or(0.0, Clock::tau);
-        let noise = noise(motion, tau);
+        let noise = noise(motion, tau, &noise::Settings::default());
         let options = SegmentOptions { tau, ..SegmentOptions::default() };
         let observations = Observations::new(motion, &options);
         let rows =

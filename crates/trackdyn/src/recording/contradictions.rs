@@ -16,11 +16,12 @@ impl Recording {
         vehicle: impl Into<Gauge>,
         tau: Option<f64>,
     ) -> Vec<Contradiction> {
-        let Some(motion) = self.motion().filter(|motion| motion.has_positions()) else {
-            return Vec::new();
-        };
-        let options = Options { tau, ..Options::new(vehicle.into().metres()) };
-        contradictions(motion, &options).unwrap_or_default()
+        self.contradicted(&Options { tau, ..Options::new(vehicle.into().metres()) })
+    }
+
+    fn contradicted(&self, options: &Options) -> Vec<Contradiction> {
+        let motion = self.motion().filter(|motion| motion.has_positions());
+        motion.map_or(Vec::new(), |motion| contradictions(motion, options).unwrap_or_default())
     }
 
     /// These [contradictions](Self::contradictions), for a use that needs poses of something else
@@ -28,12 +29,8 @@ impl Recording {
     ///
     /// # Errors
     /// [`Error::NoReference`].
-    pub(crate) fn expect_reference(
-        &self,
-        vehicle: impl Into<Gauge>,
-        tau: Option<f64>,
-    ) -> Result<Vec<Contradiction>, Error> {
-        let found = self.contradictions(vehicle, tau);
+    pub(crate) fn expect_reference(&self, options: &Options) -> Result<Vec<Contradiction>, Error> {
+        let found = self.contradicted(options);
         let is_computed = |of: &&Contradiction| matches!(of, Contradiction::WheelOdometry { .. });
         match found.iter().find(is_computed) {
             Some(cause) => Err(Error::NoReference { recording: self.place(), cause: *cause }),

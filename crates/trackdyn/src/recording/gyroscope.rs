@@ -2,8 +2,8 @@
 
 use super::{Recording, Seen};
 use std::borrow::Cow;
-use trackdyn_estimate::gyroscope::Unfit;
-use trackdyn_estimate::{Clock, Gyroscope, with_gyroscope};
+use trackdyn_estimate::gyroscope::{self, Unfit};
+use trackdyn_estimate::{Clock, Gyroscope, clock, with_gyroscope};
 use trackdyn_recording::Recording as Motion;
 
 impl Recording {
@@ -13,8 +13,10 @@ impl Recording {
     pub fn with_gyroscope(&self, tau: Option<f64>) -> Self {
         let usable = self.motion().filter(|motion| motion.has_positions());
         let (Some(motion), None) = (usable, &self.gyroscope) else { return self.clone() };
-        let Ok(clock) = Clock::of(motion, tau) else { return self.clone() };
-        match with_gyroscope(motion, clock.tau()) {
+        let Ok(clock) = Clock::of(motion, tau, &clock::Settings::default()) else {
+            return self.clone();
+        };
+        match with_gyroscope(motion, clock.tau(), &gyroscope::Settings::default()) {
             Ok(corrected) => {
                 let seen = Seen::Motion(corrected.recording);
                 let gyroscope = Some(Ok(corrected.gyroscope));

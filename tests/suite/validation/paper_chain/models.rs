@@ -103,6 +103,9 @@ fn symmetric(spins: &Recording, tau: f64, alpha: PerSide<f64>) -> Kinematics {
     let belts = Recording::new("belts", "", runs.collect(), Source::computed(), Vec::new());
     let segments = SegmentOptions { tau, ..SegmentOptions::default() };
     let observations = Observations::new(&belts.expect("as long as before"), &segments);
-    let half = spin_test(&observations, GAUGE).expect("turns on the spot").gap / 2.0;
+    let half = spin_test(&observations, GAUGE, &spin_test::Settings::default())
+        .expect("turns on the spot")
+        .gap
+        / 2.0;
     Kinematics { icrs: Icrs { x_left: -half, x_right: half, y: 0.0 }, alpha }
 }

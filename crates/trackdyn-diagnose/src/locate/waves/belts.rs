@@ -21,9 +21,6 @@ use std::ops::Range;
 use trackdyn_core::{PerSide, Side, real};
 use trackdyn_recording::hold::travelled;
 
-/// Waves per stretch from which on a wave is none of its mean or trend.
-const FEWEST: usize = 3;
-
 /// Waves of the belts; none in a table of steady points.
 pub fn resolved<'a>(evidence: &'a Weighted, fit: &Fit, _icrs: &IcrColumns) -> Option<Resolved<'a>> {
     if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
@@ -36,7 +33,8 @@ pub fn resolved<'a>(evidence: &'a Weighted, fit: &Fit, _icrs: &IcrColumns) -> Op
     let longest = parts.iter().flat_map(length).fold(0.0, f64::max);
     let step = TAU / (settings.waves_per_length * longest);
     let largest = TAU / settings.min_belt_wavelength;
-    let numbers = (FEWEST..).map(|k| real(k) * step).take_while(|number| *number <= largest);
+    let numbers =
+        (settings.min_belt_waves..).map(|k| real(k) * step).take_while(|number| *number <= largest);
     let numbers: Vec<f64> = numbers.take(settings.max_waves).collect();
     let waves = numbers.iter().map(|number| (TAU / number, Along::Belts)).collect();
     let by_gain = by_gain(evidence, fit);

@@ -2,12 +2,15 @@
 
 use toml::Value;
 
-/// What a setting may be.
+/// What a setting may be: a number, a count, or so many numbers.
 pub trait Number: Sized {
     /// As a TOML value.
     fn value(&self) -> Value;
 
-    /// From a TOML value within a range; else what was expected.
+    /// From a TOML value within a range.
+    ///
+    /// # Errors
+    /// What was expected.
     fn read(value: &Value, range: [f64; 2]) -> Result<Self, String>;
 }
 
@@ -31,7 +34,7 @@ impl Number for usize {
     fn read(value: &Value, [low, high]: [f64; 2]) -> Result<Self, String> {
         let whole = value.as_integer().and_then(|whole| Self::try_from(whole).ok());
         whole
-            .filter(|whole| (low..=high).contains(&trackdyn_core::real(*whole)))
+            .filter(|whole| (low..=high).contains(&crate::real(*whole)))
             .ok_or_else(|| format!("a whole number from {low} to {high}"))
     }
 }

@@ -1,6 +1,7 @@
 //! Ctrl-C and requests to end: they end the program between two files, never inside one, and leave
 //! nothing behind.
 
+use std::any::Any;
 use std::io;
 use std::sync::{Mutex, PoisonError};
 
@@ -10,16 +11,14 @@ static OPEN_ACTIONS: Mutex<Vec<(u64, Action)>> = Mutex::new(Vec::new());
 type Action = Box<dyn FnOnce() + Send>;
 
 /// As long as it lives a signal that ends the program does this first.
-pub struct Undo(u64);
+struct Undo(u64);
 
-impl Undo {
-    /// Something to do before a signal ends the program.
-    pub fn new(action: impl FnOnce() + Send + 'static) -> Self {
-        let mut open = OPEN_ACTIONS.lock().unwrap_or_else(PoisonError::into_inner);
-        let number = open.last().map_or(0, |(last, _)| last + 1);
-        open.push((number, Box::new(action)));
-        Self(number)
-    }
+/// Takes something to do before a signal ends the program, as long as what it gives lives.
+pub fn before_the_end(action: Action) -> Box<dyn Any> {
+    let mut open = OPEN_ACTIONS.lock().unwrap_or_else(PoisonError::into_inner);
+    let number = open.last().map_or(0, |(last, _)| last + 1);
+    open.push((number, action));
+    Box::new(Undo(number))
 }
 
 impl Drop for Undo {

@@ -23,6 +23,14 @@ const READING: &str = "How the recording is read";
 pub const PART: &str = "What of the recording counts";
 const VEHICLE: &str = "Vehicle";
 
+/// A default of the library for an option that takes a small count.
+///
+/// # Panics
+/// Where the count is not small.
+pub fn small(count: usize) -> u32 {
+    u32::try_from(count).expect("a small count")
+}
+
 /// Where the robot stands.
 #[derive(Args)]
 #[command(next_help_heading = PLACE)]

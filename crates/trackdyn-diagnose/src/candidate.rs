@@ -305,6 +305,7 @@ mod tests {
     use crate::hypothesis::typical;
     use crate::plan::assumed_noise;
     use crate::settings::Settings;
+    use trackdyn_core::rounding::Digits;
     use trackdyn_core::{Pose, real};
     use trackdyn_model::VehicleFile;
     use trackdyn_recording::TrackSample;
@@ -364,10 +365,8 @@ mod tests {
         let tried = |id: &str, key: &str| {
             let card = EffectId::of(id).expect("an effect").card();
             let parameter = card.parameters.iter().find(|one| one.key == key).expect("a key");
-            shapes(parameter, 2.5)
-                .iter()
-                .map(|shape| (1e3 * shape).round() / 1e3)
-                .collect::<Vec<_>>()
+            let tried = shapes(parameter, 2.5).into_iter();
+            tried.map(|shape| Digits::Decimals(3).round(shape)).collect::<Vec<_>>()
         };
         assert_eq!(tried("terrain-patch", "radius_m"), [0.8, 2.0, 5.0]);
         assert_eq!(tried("shear-displacement", "residual"), [0.4, 0.632, 1.0]);

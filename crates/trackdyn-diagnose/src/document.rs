@@ -11,16 +11,21 @@ pub use proposed::{ProposalTable, ProposedTable};
 use crate::diagnosis::{Diagnosis, Kind};
 use crate::settings::Settings;
 use crate::uncertainty::Interval;
+use crate::verdict::Support;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use toml::Table;
 use trackdyn_core::document::{Document, DocumentError};
 use trackdyn_core::rounding::Digits;
+use trackdyn_model::EffectId;
 use trackdyn_model::effect::{Card, Symmetry};
 use trackdyn_model::kinematics::Source;
 
 const SCHEMA: &str = "trackdyn.diagnosis/1";
+
+/// Digits of the numbers of diagnosis and comparison files.
+pub(crate) const DIGITS: Digits = Digits::Significant(9);
 
 /// A diagnosis file.
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -132,12 +137,12 @@ pub struct FactorTable {
     pub high95: f64,
 }
 
-/// Statistical support of a claim.
+/// Statistical support of a claim, or of a difference.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct SupportTable {
     /// Family-wise p value.
     pub p: f64,
-    /// ln Bayes factor against the best alternative.
+    /// ln Bayes factor against the best alternative, or against no difference.
     pub ln_bayes_factor: f64,
     /// Cross-validated gain of log-likelihood, on blocks left out of the fit.
     pub held_out_gain: f64,
@@ -169,25 +174,17 @@ impl DiagnosisFile {
     /// Never: a source serialises to a table.
     pub fn new(diagnosis: &Diagnosis, source: &Source) -> Self {
         let located = &diagnosis.evidence.before;
-        let detectable = diagnosis.limits.detectable.iter().filter_map(|one| {
-            let card = one.effect.card();
-            let size = rounded(one.size?);
-            Some((card.id.to_owned(), card.parameters[one.parameter].key.to_owned(), size))
-        });
-        let mut sizes: BTreeMap<String, BTreeMap<String, f64>> = BTreeMap::new();
-        for (id, key, size) in detectable {
-            sizes.entry(id).or_default().insert(key, size);
-        }
+        let detectable = diagnosis.limits.detectable.iter();
         let held_out = &diagnosis.evidence.errors;
         Self {
             schema: SCHEMA.to_owned(),
             status: diagnosis.answer.status.name().to_owned(),
             located: LocatedTable {
-                excess_over_noise: rounded(located.excess_over_noise),
+                excess_over_noise: DIGITS.round(located.excess_over_noise),
                 channels: Channels {
-                    longitudinal: rounded(located.channels[0]),
-                    lateral: rounded(located.channels[1]),
-                    yaw: rounded(located.channels[2]),
+                    longitudinal: DIGITS.round(located.channels[0]),
+                    lateral: DIGITS.round(located.channels[1]),
+                    yaw: DIGITS.round(located.channels[2]),
                 },
                 broken: diagnosis.answer.broken.iter().map(|s| s.letter().to_string()).collect(),
                 place: diagnosis.answer.place.clone(),
@@ -196,21 +193,21 @@ impl DiagnosisFile {
             proposed: diagnosis.answer.proposed.as_ref().map_or_else(Vec::new, proposed::terms),
             proposal: diagnosis.answer.proposed.as_ref().map(proposed::law),
             friction_by_inertia: diagnosis.friction_by_inertia().map(|factors| {
-                let [factor, low95, high95] = factors.map(rounded);
+                let [factor, low95, high95] = factors.map(|value| DIGITS.round(value));
                 FactorTable { factor, low95, high95 }
             }),
             fit: FitTable {
                 are_held_out: held_out.are_held_out,
-                held_out_before: rounded(held_out.before),
-                held_out_instruments: rounded(held_out.instruments),
-                held_out_after: rounded(held_out.after),
-                noise_floor: rounded(held_out.noise_floor),
-                excess_explained: rounded(held_out.excess_explained().unwrap_or(1.0)),
+                held_out_before: DIGITS.round(held_out.before),
+                held_out_instruments: DIGITS.round(held_out.instruments),
+                held_out_after: DIGITS.round(held_out.after),
+                noise_floor: DIGITS.round(held_out.noise_floor),
+                excess_explained: DIGITS.round(held_out.excess_explained().unwrap_or(1.0)),
             },
             drift: DriftTable::of(&diagnosis.evidence.drift),
             noise: diagnosis.evidence.seen.noise().map(NoiseTable::of),
             gyroscope: None,
-            detectable: sizes,
+            detectable: by_keys(detectable.map(|one| (one.effect, one.parameter, one.size))),
             settings: diagnosis.evidence.seen.settings().clone(),
             source: Some(Table::try_from(source).expect("a source is a table")),
         }
@@ -240,15 +237,40 @@ impl DiagnosisFile {
     }
 }
 
+impl SupportTable {
+    /// Table of a support.
+    pub(crate) fn of(support: &Support) -> Self {
+        let Support { p, ln_bayes_factor, held_out_gain, .. } = *support;
+        let [p, ln_bayes_factor, held_out_gain] =
+            [p, ln_bayes_factor, held_out_gain].map(|value| DIGITS.round(value));
+        Self { p, ln_bayes_factor, held_out_gain }
+    }
+}
+
+/// Sizes of effects that are known, by ids of effects and keys of parameters.
+pub(crate) fn by_keys(
+    sizes: impl IntoIterator<Item = (EffectId, usize, Option<f64>)>,
+) -> BTreeMap<String, BTreeMap<String, f64>> {
+    let mut by_keys: BTreeMap<_, BTreeMap<_, _>> = BTreeMap::new();
+    for (effect, parameter, size) in sizes {
+        if let Some(size) = size {
+            let card = effect.card();
+            let of = by_keys.entry(card.id.to_owned()).or_default();
+            of.insert(card.parameters[parameter].key.to_owned(), DIGITS.round(size));
+        }
+    }
+    by_keys
+}
+
 impl ParameterTable {
     /// Table of an effect's parameter; none for other unknowns.
     fn of(interval: &Interval) -> Option<Self> {
         let parameter = interval.unknown.parameter()?;
         Some(Self {
             name: parameter.key.to_owned(),
-            value: rounded(interval.value),
-            low95: rounded(interval.low),
-            high95: rounded(interval.high),
+            value: DIGITS.round(interval.value),
+            low95: DIGITS.round(interval.low),
+            high95: DIGITS.round(interval.high),
             unit: parameter.unit.to_owned(),
         })
     }
@@ -261,11 +283,7 @@ fn missing(missing: &crate::diagnosis::Missing) -> MissingTable {
     MissingTable {
         effect: verdict.effect.name().to_owned(),
         parameters: parameters.collect(),
-        evidence: SupportTable {
-            p: rounded(verdict.support.p),
-            ln_bayes_factor: rounded(verdict.support.ln_bayes_factor),
-            held_out_gain: rounded(verdict.support.held_out_gain),
-        },
+        evidence: SupportTable::of(&verdict.support),
         separate_by: (ids.len() > 1).then(|| separate_by(missing)),
         one_of: ids,
     }
@@ -308,9 +326,4 @@ fn told_by(card: &Card) -> Option<&'static str> {
         Symmetry::Transient => Some("with changes of speed"),
         Symmetry::Straight => Some("straight ahead"),
     })
-}
-
-/// A number rounded to the digits of the file.
-fn rounded(value: f64) -> f64 {
-    Digits::Significant(9).round(value)
 }

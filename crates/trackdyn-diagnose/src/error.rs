@@ -1,7 +1,7 @@
 //! Errors: why a recording cannot be diagnosed.
 
 use crate::progress::Cancelled;
-use trackdyn_core::real;
+use trackdyn_core::{Stopped, real};
 
 /// Why evidence cannot be diagnosed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -66,7 +66,13 @@ pub enum Error {
     Clock(trackdyn_estimate::Error),
     /// A vehicle model without a motion at the recorded speeds.
     #[error("the vehicle does not move as recorded: {0}")]
-    NoMotion(String),
+    NoMotion(#[from] Impossible),
+    /// A vehicle model that does not turn in a slow spin.
+    #[error("the vehicle does not move as recorded: in a slow spin it turns at {rate} rad/s")]
+    NoSpin {
+        /// Yaw rate, rad/s.
+        rate: f64,
+    },
     /// Cancelled by the observer.
     #[error("cancelled")]
     Cancelled,
@@ -81,6 +87,29 @@ pub enum Error {
         /// Time of the shortest manoeuvre, s.
         needed: f64,
     },
+}
+
+/// Why a hypothesis predicts no motion.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Impossible {
+    /// At many speeds the robot tips over, or no motion balances the forces.
+    #[error("at {} of the speeds the robot tips over or no forces balance", part(*share))]
+    Unbalanced {
+        /// Share of these speeds; none where it is most of them.
+        share: Option<f64>,
+    },
+    /// The transient simulation fails.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
+    /// A departure from the stationary motion that was found for another robot.
+    #[error("found for another robot")]
+    OtherRobot,
+}
+
+/// A share in words; none is most.
+fn part(share: Option<f64>) -> String {
+    share.map_or_else(|| "most".to_owned(), |share| format!("{:.0} %", 100.0 * share))
 }
 
 impl From<Cancelled> for Error {

@@ -65,7 +65,7 @@ pub mod weighted;
 
 pub use diagnosis::{Diagnosis, Options, Status, diagnose};
 pub use document::DiagnosisFile;
-pub use error::Error;
+pub use error::{Error, Impossible};
 pub use evidence::Evidence;
 pub use plan::{Plan, PlanFile, plan};
 pub use progress::{Observer, Progress, Stage, unobserved};

@@ -21,6 +21,7 @@ mod sheared;
 mod simulated;
 mod slope;
 
+use crate::error::Impossible;
 use crate::evidence::{Evidence, Origin, Sample};
 use crate::hypothesis::{Hypothesis, Unknown};
 use crate::surface::{HOPELESS, Steady, Surface};
@@ -79,9 +80,8 @@ enum InTime {
         /// Change of it by shear-stress laws; none without such laws.
         sheared: Option<ByShear>,
     },
-    /// The hypothesis is impossible: forces do not balance over a large share of the speeds, or the
-    /// transient simulation fails.
-    Impossible(String),
+    /// None: the hypothesis is impossible.
+    Impossible(Impossible),
 }
 
 impl InTime {
@@ -205,12 +205,12 @@ impl Mechanics {
         hypothesis: &Hypothesis,
         free: &[Unknown],
         within: Within,
-    ) -> impl FnOnce(Vec<ActiveEffect>, &Case) -> Result<InertiaNear, String> {
+    ) -> impl FnOnce(Vec<ActiveEffect>, &Case) -> Result<InertiaNear, Impossible> {
         let delay = Instruments::of(hypothesis).sensor.delay;
         move |inert, case| {
             let free = free.iter().copied().filter(|by| has_slope(*by, case.model));
             let free: Vec<Unknown> = free.collect();
-            InertiaNear::beside(known, inert, case, &free, delay, within)
+            Ok(InertiaNear::beside(known, inert, case, &free, delay, within)?)
         }
     }
 
@@ -221,11 +221,11 @@ impl Mechanics {
     pub fn varied(&self, hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
         let inertia = |inert: Vec<ActiveEffect>, case: &Case| {
             let moved = match &self.in_time {
-                InTime::Stationary => return InertiaNear::here(inert, case),
+                InTime::Stationary => return Ok(InertiaNear::here(inert, case)?),
                 InTime::Impossible(reason) => return Err(reason.clone()),
                 InTime::Found { inertia, .. } => inertia.moved(&inert, case, Within::A_STEP),
             };
-            moved.ok_or_else(|| "found for another robot".to_owned())
+            moved.ok_or(Impossible::OtherRobot)
         };
         Self::found(Some(self), (&[], Within::A_STEP), hypothesis, evidence, inertia)
     }
@@ -238,7 +238,7 @@ impl Mechanics {
         (free, within): (&[Unknown], Within),
         hypothesis: &Hypothesis,
         evidence: &Evidence,
-        inertia: impl FnOnce(Vec<ActiveEffect>, &Case) -> Result<InertiaNear, String>,
+        inertia: impl FnOnce(Vec<ActiveEffect>, &Case) -> Result<InertiaNear, Impossible>,
     ) -> Self {
         let (vehicle, settings) = (&hypothesis.vehicle, &evidence.settings().mechanics);
         let mechanical = hypothesis.effects.iter().filter(|effect| !is_instrument(vehicle, effect));
@@ -274,8 +274,10 @@ impl Mechanics {
         let in_time = InTime::Stationary;
         let still = Self { surface, tracks, steady, drive, ground: None, in_time, simple, shear };
         // An impossible hypothesis needs no departures, which cost most where no forces balance.
-        if let Some(reason) = unbalanced(&still.surface, settings.max_unsolved_share) {
-            return Self { in_time: InTime::Impossible(reason), ..still };
+        let unsolved = still.surface.unsolved();
+        if unsolved > settings.max_unsolved_share {
+            let share = (unsolved <= HOPELESS).then_some(unsolved);
+            return Self { in_time: InTime::Impossible(Impossible::Unbalanced { share }), ..still };
         }
         let ground = (!varying.is_empty()).then(|| {
             let mut effects = without_shear(&constant);
@@ -298,7 +300,7 @@ impl Mechanics {
         (free, within): (&[Unknown], Within),
         hypothesis: &Hypothesis,
         evidence: &Evidence,
-        inertia: impl FnOnce(Vec<ActiveEffect>, &Case) -> Result<InertiaNear, String>,
+        inertia: impl FnOnce(Vec<ActiveEffect>, &Case) -> Result<InertiaNear, Impossible>,
     ) -> InTime {
         let Self { simple, drive, shear, surface, .. } = self;
         let vehicle = &hypothesis.vehicle;
@@ -344,10 +346,8 @@ impl Mechanics {
         self.in_time.inertia().and_then(InertiaNear::starts)
     }
 
-    /// Why the hypothesis is impossible: over a large share of the speeds it tips over or no
-    /// motion balances the forces, or the transient simulation fails. None where it is
-    /// possible.
-    pub fn failure(&self) -> Option<&str> {
+    /// Why the hypothesis is impossible; none where it is possible.
+    pub fn failure(&self) -> Option<&Impossible> {
         match &self.in_time {
             InTime::Impossible(reason) => Some(reason),
             InTime::Stationary | InTime::Found { .. } => None,
@@ -438,16 +438,6 @@ fn are_from_one<T>([here, there]: [Option<&T>; 2], is_from: impl Fn(&T, &T) -> b
         (None, None) => true,
         _ => false,
     }
-}
-
-/// Reason if more than the share `most` of the speeds has no stationary motion; none otherwise.
-fn unbalanced(surface: &Surface, most: f64) -> Option<String> {
-    let share = surface.unsolved();
-    (share > most).then(|| {
-        let part =
-            if share > HOPELESS { "most".to_owned() } else { format!("{:.0} %", 100.0 * share) };
-        format!("at {part} of the speeds the robot tips over or no forces balance")
-    })
 }
 
 /// Stationary motion at each reading of each run.

@@ -57,38 +57,42 @@ fn remaining(
     watch: &Watch,
 ) -> Result<Weighted, Cancelled> {
     let settings = &evidence.settings().noise;
-    let search = settings.search();
-    let mut noise = search.regular(&measured);
     let samples = evidence.samples().iter().zip(&flexible.residual);
     let predicted: Vec<_> = samples.map(|(sample, left)| sample.motion - left).collect();
-    let mut evidence = evidence.with_all_in(noise).moving_as(&predicted);
-    for _ in 0..settings.rounds {
+    let regular = settings.search().regular(&measured);
+    let first = evidence.with_all_in(regular).moving_as(&predicted);
+    (0..settings.rounds).try_fold(first, |evidence, _| {
         watch.go_on()?;
-        let left = flexible.left(&evidence);
-        let taken = taken(&noise, &evidence.motions(), &left.white, |column| {
-            evidence.whiten_transposed(column);
-        });
-        let likely = search.most_likely(&evidence.motions(), &left.residual, noise, &taken);
-        noise = likely.at_least(settings.min_deviations);
-        evidence = evidence.with_noise(noise);
-        evidence = evidence.without(&outliers(&evidence, &noise, &left.residual));
-    }
-    Ok(evidence)
+        Ok(estimated_again(&evidence, flexible))
+    })
+}
+
+/// One round: the noise estimated from what the columns leave at the present noise, and without the
+/// samples at poses that are outliers by the new one.
+fn estimated_again(evidence: &Weighted, flexible: &Flexible) -> Weighted {
+    let Some(&noise) = evidence.noise() else { return evidence.clone() };
+    let settings = &evidence.settings().noise;
+    let (left, motions) = (flexible.left(evidence), evidence.motions());
+    let transposed = |column: &mut [Vector3<f64>]| evidence.whiten_transposed(column);
+    let taken = taken(&noise, &motions, &left.white, transposed);
+    let likely = settings.search().most_likely(&motions, &left.residual, noise, &taken);
+    let found = likely.at_least(settings.min_deviations);
+    let renewed = evidence.with_noise(found);
+    renewed.without(&outliers(&renewed, &found, &left.residual))
 }
 
 /// The evidence without samples at outlying poses, judged beside a fit with the present noise.
 pub fn without_outliers(evidence: &Weighted, fit: &Fit) -> Weighted {
-    let mut evidence = evidence.clone();
-    let Some(&noise) = evidence.noise() else { return evidence };
-    let flexible = Flexible::new(&evidence, fit);
-    // Outliers of one round mask others, which the next round judges.
-    loop {
-        let lost = outliers(&evidence, &noise, &flexible.left(&evidence).residual);
-        if lost.is_empty() {
-            return evidence;
-        }
-        evidence = evidence.without(&lost);
+    match evidence.noise() {
+        Some(noise) => cleaned(evidence.clone(), noise, &Flexible::new(evidence, fit)),
+        None => evidence.clone(),
     }
+}
+
+/// Outliers mask others, which are judged once the former are gone.
+fn cleaned(evidence: Weighted, noise: &SegmentNoise, flexible: &Flexible) -> Weighted {
+    let lost = outliers(&evidence, noise, &flexible.left(&evidence).residual);
+    if lost.is_empty() { evidence } else { cleaned(evidence.without(&lost), noise, flexible) }
 }
 
 /// The noise in words: error of each pose, and what is added per second.

@@ -31,6 +31,9 @@ use trackdyn_model::Stationary;
 use trackdyn_model::{Circumstance, VehicleFile};
 use trackdyn_recording::TrackSample;
 
+/// Digits of the numbers of plan files.
+const DIGITS: Digits = Digits::Decimals(6);
+
 /// Options of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
@@ -122,24 +125,19 @@ impl Plan {
         let last = PerSide::default();
         let interval = self.steps.first()?.manoeuvre.interval;
         let commands = speeds.chain([&last]).enumerate().map(|(k, speeds)| Command {
-            t: rounded(interval * real(k)),
-            speeds: speeds.map(rounded),
+            t: DIGITS.round(interval * real(k)),
+            speeds: speeds.map(|speed| DIGITS.round(speed)),
         });
         Schedule::new(commands.collect()).ok()
     }
-}
-
-/// A number rounded to the digits of plan files.
-fn rounded(value: f64) -> f64 {
-    Digits::Decimals(6).round(value)
 }
 
 /// Plans driving that separates the members of each class. `progress` is called after each stage,
 /// and may cancel.
 ///
 /// # Errors
-/// [`Error::NoMotion`] for a vehicle without a motion, [`Error::TooShort`] for a duration shorter
-/// than every manoeuvre, [`Error::Cancelled`].
+/// [`Error::NoMotion`] and [`Error::NoSpin`] for a vehicle without a motion, [`Error::TooShort`]
+/// for a duration shorter than every manoeuvre, [`Error::Cancelled`].
 pub fn plan(
     questions: &[Question],
     file: &VehicleFile,
@@ -180,11 +178,7 @@ fn gap(file: &VehicleFile, settings: &settings::Plan) -> Result<f64, Error> {
     let gap = 2.0 * SPIN_SPEED / solution.twist.w;
     let [least, most] = settings.gap_limits.map(|limit| file.vehicle.gauge * limit);
     let limits = least..most;
-    if limits.contains(&gap) {
-        Ok(gap)
-    } else {
-        Err(Error::NoMotion(format!("in a slow spin it turns at {} rad/s", solution.twist.w)))
-    }
+    if limits.contains(&gap) { Ok(gap) } else { Err(Error::NoSpin { rate: solution.twist.w }) }
 }
 
 /// A class of rivals, compared on the whole menu.
@@ -206,8 +200,7 @@ impl Class {
         let all: Vec<&Manoeuvre> = menu.iter().collect();
         let driving = evidence(&[run(&all, 0.0, Pose::default())], &fitted, options);
         if let Some(reason) = fitted.mechanics(&driving).failure() {
-            let reason = reason.to_owned();
-            return Err(Error::NoMotion(reason));
+            return Err(reason.clone().into());
         }
         let mut rivals = vec![fitted.clone()];
         rivals.extend(fitted.mimicked(question, &driving));

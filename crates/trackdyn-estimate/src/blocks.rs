@@ -26,7 +26,7 @@ pub struct Blocks {
 }
 
 impl Blocks {
-    /// The usual number of runs from which on each is a block. With fewer blocks, their scatter is a
+    /// The usual number of runs from which on each is a block. The scatter of fewer blocks is a
     /// poor variance.
     pub const MIN_WHOLE_RUNS: usize = 24;
 

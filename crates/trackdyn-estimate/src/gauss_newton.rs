@@ -14,9 +14,10 @@
 //! Reweighting: Huber, Ronchetti, Robust Statistics, 2nd ed. 2009, chapter 7.
 
 use nalgebra::{DMatrix, DVector};
+use trackdyn_core::robust::HUBER_THRESHOLD;
 
-/// The loss of single residuals: 95 % efficient on normal noise.
-const HUBER: Huber = Huber { threshold: 1.345 };
+/// The loss of single residuals.
+const HUBER: Huber = Huber { threshold: HUBER_THRESHOLD };
 
 /// Relative increase of the cost that is rounding.
 const COST_ROUNDING: f64 = 1e-14;

@@ -1,5 +1,7 @@
 //! Numbers as every one of the languages reads them.
 
+use trackdyn_core::rounding::Digits;
+
 /// Largest length that is accepted, m.
 pub(crate) const MAX_LENGTH: f64 = 1e4;
 
@@ -13,7 +15,7 @@ pub(crate) fn number(value: f64) -> String {
 
 /// A length in m to twelve decimals, as kinematics files give it.
 pub(crate) fn metres(length: f64) -> String {
-    number((length * 1e12).round() / 1e12)
+    number(Digits::Decimals(12).round(length))
 }
 
 #[cfg(test)]

@@ -46,7 +46,11 @@ pub use law::{CustomLaw, Outcome};
 
 use std::sync::{PoisonError, RwLock};
 
-/// All laws that were registered, in order. They stay, so that effects can refer to them.
+/// All laws that were registered, in order.
+///
+/// A global registry, which nothing else of the models has: an [`EffectId`](crate::EffectId) is a
+/// number that is copied into models, files and threads, and its card is found by it from anywhere.
+/// A law is never freed, for an effect may outlive whoever defined it.
 static REGISTERED_LAWS: RwLock<Vec<&'static CustomLaw>> = RwLock::new(Vec::new());
 
 /// Registers a law for the rest of the process; its number.

@@ -40,11 +40,7 @@ pub struct Keywords {
 
 impl Keywords {
     fn settings(self) -> PyResult<DiagnoseSettings> {
-        let held_out = match self.held_out.as_deref() {
-            None => HeldOut::EveryFourth,
-            Some("none") => HeldOut::None,
-            Some(list) => HeldOut::Runs(parsed("held_out", list)?),
-        };
+        let held_out = self.held_out.map(|text| parsed::<HeldOut>("held_out", &text));
         if !(1000..=100_000).contains(&self.draws) {
             return Err(refused("draws", self.draws, "expected 1000 to 100000"));
         }
@@ -54,7 +50,7 @@ impl Keywords {
                 .map_err(|error| raised(trackdyn::Error::from(error)))
         });
         Ok(DiagnoseSettings {
-            held_out,
+            held_out: held_out.transpose()?.unwrap_or_default(),
             tau: self.tau,
             gyroscope: self.gyroscope,
             resampling: Resampling { draws: self.draws, seed: self.seed },

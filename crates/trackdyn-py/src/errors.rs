@@ -46,6 +46,7 @@ fn class(error: &Error) -> &'static str {
         Error::Driving(_) | Error::NoSensors { .. } | Error::GeneratedOnly { .. } => "DrivingError",
         Error::TooFast { .. }
         | Error::FastestSpeed { .. }
+        | Error::OutOfLimits { .. }
         | Error::Export(_)
         | Error::LogName { .. }
         | Error::ReversedJoint { .. }

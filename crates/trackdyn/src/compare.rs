@@ -21,9 +21,9 @@ const REPORT: &str = "compare.html";
 /// How to compare.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CompareSettings {
-    /// Runs of the simulator, and of the robot, that nothing is fitted or chosen on: the result is
-    /// judged on those of the robot.
-    pub held_out: [HeldOut; 2],
+    /// Runs of the robot that nothing is fitted or chosen on: the result is judged on them. With
+    /// [`HeldOut::None`] none of the simulator are held out either, otherwise every fourth.
+    pub held_out: HeldOut,
     /// Correct the yaw of the poses of each set by its gyroscope. Default: poses as they are.
     pub gyroscope: bool,
     /// Draws and seed of the bootstrap behind the tests. Default: 2000 draws, seed 1.
@@ -73,16 +73,22 @@ impl Prepared {
         {
             return Err(Error::ComparedWithItself { recording: both.place() });
         }
-        let of_set = |held_out: &HeldOut| DiagnoseSettings {
-            held_out: held_out.clone(),
+        let of_set = |held_out: HeldOut| DiagnoseSettings {
+            held_out,
             tau: None,
             gyroscope: settings.gyroscope,
             resampling: settings.resampling,
             method: settings.method.clone(),
             laws: settings.laws.clone(),
         };
-        let [first, second] = settings.held_out.each_ref().map(of_set);
-        let sets = [Set::of_any(sim, vehicle, &first)?, Set::new(real, vehicle, &second)?];
+        let of_sim = match settings.held_out {
+            HeldOut::None => HeldOut::None,
+            HeldOut::EveryFourth | HeldOut::Runs(_) => HeldOut::EveryFourth,
+        };
+        let sets = [
+            Set::of_any(sim, vehicle, &of_set(of_sim))?,
+            Set::new(real, vehicle, &of_set(settings.held_out.clone()))?,
+        ];
         Ok(Self { sets, vehicle: vehicle.clone(), resampling: settings.resampling })
     }
 
@@ -135,11 +141,6 @@ impl Comparison {
     /// The vehicle as filed.
     pub fn vehicle(&self) -> &Vehicle {
         &self.of.vehicle
-    }
-
-    /// The model of the simulator with what differs as in the robot.
-    pub fn closer_vehicle(&self) -> Vehicle {
-        self.found.closer.vehicle.clone().into()
     }
 
     /// Names of both sets: the simulator's and the robot's.

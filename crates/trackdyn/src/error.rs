@@ -1,5 +1,6 @@
 //! What a use case cannot do.
 
+use crate::limits::Limits;
 use crate::preset;
 use std::path::PathBuf;
 use trackdyn_core::document::DocumentError;
@@ -331,6 +332,16 @@ pub enum Error {
         most: f64,
     },
 
+    /// A setting outside its limits.
+    #[error("{setting} {value}: expected {limits}")]
+    OutOfLimits {
+        /// The setting.
+        setting: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it accepts.
+        limits: Limits,
+    },
     /// A largest speed that no robot has.
     #[error("fastest {fastest}: expected a track speed in m/s above 0, up to {most}")]
     FastestSpeed {
@@ -397,6 +408,7 @@ impl Error {
         match self {
             Self::NotABag { setting, .. }
             | Self::GeneratedOnly { setting, .. }
+            | Self::OutOfLimits { setting, .. }
             | Self::LogName { setting, .. }
             | Self::ReversedJoint { setting, .. } => Some(setting),
             Self::TracksNotNeeded { .. } => Some("tracks"),

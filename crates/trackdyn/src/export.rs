@@ -72,6 +72,9 @@ pub struct Ros2Settings {
 }
 
 impl Ros2Settings {
+    /// Usual name of the controller.
+    pub const CONTROLLER: &str = "diff_drive_controller";
+
     /// The usual names, for this pitch radius of the sprocket, m.
     ///
     /// # Panics
@@ -82,7 +85,7 @@ impl Ros2Settings {
             wheel_radius,
             left_wheels: vec![usual_joint(Side::Left)],
             right_wheels: vec![usual_joint(Side::Right)],
-            controller: "diff_drive_controller".parse().expect("a name of a node"),
+            controller: Self::CONTROLLER.parse().expect("a name of a node"),
             residuals: None,
             publish_rate: Published::DEFAULT_RATE,
         }

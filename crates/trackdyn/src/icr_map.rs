@@ -12,6 +12,9 @@ use trackdyn_model::{Circumstance, Grid, Status};
 /// Name of the kinematics file of a map.
 const FILE: &str = "kinematics.toml";
 
+/// Largest standard deviation of an ICR over a map, m, up to which its mean tells all.
+const MAX_TOLD_SPREAD: f64 = 1e-3;
+
 /// How a map is solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapSettings {
@@ -81,6 +84,13 @@ impl IcrMap {
     /// Means and spreads of the ICRs; none where no motion turns.
     pub fn statistics(&self) -> Option<&Statistics> {
         self.statistics.as_ref()
+    }
+
+    /// Largest standard deviation of an ICR over the map, m, where the means do not tell all: they
+    /// stand for the ICRs at all speeds to a millimetre, or for those of each sector.
+    pub fn untold_spread(&self) -> Option<f64> {
+        let spread = self.statistics.as_ref()?.spread.to_array().into_iter().fold(0.0, f64::max);
+        (spread > MAX_TOLD_SPREAD && self.solved.sectors().is_empty()).then_some(spread)
     }
 
     /// The parameters to drive with; none where no motion turns.

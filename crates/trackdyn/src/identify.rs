@@ -181,13 +181,6 @@ impl Identification {
         icrs
     }
 
-    /// The parameters with the factors on the track speeds; none where the recording does not
-    /// determine them.
-    pub fn parameters_with_alphas(&self) -> Option<Parameters> {
-        let [_, with_alphas] = self.fits(&Provenance::default());
-        with_alphas
-    }
-
     /// What contradicts each of the fits, and keeps it from being given or written unless forced.
     pub fn contradictions(&self) -> [Vec<Contradiction>; 2] {
         match self {

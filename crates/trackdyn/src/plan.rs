@@ -3,25 +3,101 @@
 use crate::change::Folder;
 use crate::law::guarded;
 use crate::progress::Counter;
-use crate::{Change, Diagnosis, Error, MethodSettings, Observer, Provenance, Vehicle, unobserved};
+use crate::{
+    Change, Diagnosis, Error, Limits, MethodSettings, Observer, Provenance, Vehicle, unobserved,
+};
 use std::path::Path;
 use trackdyn_core::Schedule;
 use trackdyn_core::document::Document;
 use trackdyn_core::output::fingerprint;
 use trackdyn_diagnose::document::NoiseTable;
-use trackdyn_diagnose::plan::{Question, STAGES};
+use trackdyn_diagnose::plan::{Options, Question, STAGES, assumed_noise};
 use trackdyn_diagnose::{DiagnosisFile, Plan as Planned, PlanFile};
 use trackdyn_drive::schedules::{self, ScheduledRun};
 use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_model::kinematics::Source;
 
-/// How to plan: fastest speed, time, and noise of the poses.
-pub type PlanSettings = trackdyn_diagnose::plan::Options;
-
-pub use trackdyn_diagnose::plan::assumed_noise;
-
 /// Names of the files of a plan: the plan, and the driving as a schedule.
 const FILES: [&str; 2] = ["plan.toml", "plan.csv"];
+
+/// How to plan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanSettings {
+    /// Largest track speed, m/s. Default: 1.
+    pub fastest: f64,
+    /// Time for all manoeuvres together, s. Default: 60.
+    pub duration: f64,
+    /// Standard deviation of a pose along each axis, m. Default: as the diagnosis measured it, else
+    /// 0.001.
+    pub noise_xy: Option<f64>,
+    /// Standard deviation of the yaw of a pose, rad. Default: as the diagnosis measured it, else
+    /// 0.001.
+    pub noise_yaw: Option<f64>,
+}
+
+/// Where the noise of a plan comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoiseOrigin {
+    /// The settings, along the axes or in yaw.
+    Given,
+    /// The diagnosis.
+    Measured,
+    /// What a laboratory has: neither tells it.
+    Assumed,
+}
+
+impl PlanSettings {
+    /// Limits of the largest track speed.
+    pub const SPEED_LIMITS: Limits = Limits { least: 0.05, most: 10.0, unit: "m/s" };
+    /// Limits of the time.
+    pub const DURATION_LIMITS: Limits = Limits { least: 1.0, most: 3600.0, unit: "s" };
+    /// Limits of both standard deviations.
+    pub const NOISE_LIMITS: Limits = Limits { least: 1e-6, most: 10.0, unit: "m or rad" };
+
+    /// The noise to plan for, by what is given here, and what the diagnosis measured.
+    fn noise(&self, questions: &OpenQuestions) -> (SegmentNoise, NoiseOrigin) {
+        let measured = questions.noise();
+        let mut noise = measured.unwrap_or_else(|| Options::default().noise);
+        if let Some(xy) = self.noise_xy {
+            let given = assumed_noise(xy, 0.0);
+            noise.pose[..2].copy_from_slice(&given.pose[..2]);
+            noise.walk[..2].copy_from_slice(&given.walk[..2]);
+        }
+        if let Some(yaw) = self.noise_yaw {
+            let given = assumed_noise(0.0, yaw);
+            (noise.pose[2], noise.walk[2]) = (given.pose[2], given.walk[2]);
+            noise.heading = given.heading;
+        }
+        let origin = match (self.noise_xy.or(self.noise_yaw), measured) {
+            (Some(_), _) => NoiseOrigin::Given,
+            (None, Some(_)) => NoiseOrigin::Measured,
+            (None, None) => NoiseOrigin::Assumed,
+        };
+        (noise, origin)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        let given = [
+            ("fastest", Some(self.fastest), Self::SPEED_LIMITS),
+            ("duration", Some(self.duration), Self::DURATION_LIMITS),
+            ("noise_xy", self.noise_xy, Self::NOISE_LIMITS),
+            ("noise_yaw", self.noise_yaw, Self::NOISE_LIMITS),
+        ];
+        for (setting, value, limits) in given {
+            if let Some(value) = value.filter(|value| !limits.hold(*value)) {
+                return Err(Error::OutOfLimits { setting, value, limits });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Default for PlanSettings {
+    fn default() -> Self {
+        let Options { fastest, duration, .. } = Options::default();
+        Self { fastest, duration, noise_xy: None, noise_yaw: None }
+    }
+}
 
 /// What a diagnosis left open between several effects.
 #[derive(Clone, Debug)]
@@ -100,7 +176,8 @@ impl OpenQuestions {
 #[derive(Clone, Debug)]
 pub struct Plan {
     found: Planned,
-    settings: PlanSettings,
+    options: Options,
+    noise_origin: NoiseOrigin,
     vehicle: String,
     fingerprint: String,
 }
@@ -122,19 +199,23 @@ impl Plan {
     /// Plans, observed: a part is a stage.
     ///
     /// # Errors
-    /// [`Error::Plan`] for a vehicle that cannot move so, or a time in which no manoeuvre can be
-    /// driven; [`Error::Cancelled`].
+    /// [`Error::OutOfLimits`]; [`Error::Plan`] for a vehicle that cannot move so, or a time in
+    /// which no manoeuvre can be driven; [`Error::Cancelled`].
     pub fn new(
         questions: &OpenQuestions,
         vehicle: &Vehicle,
         settings: &PlanSettings,
         observer: &Observer,
     ) -> Result<Self, Error> {
+        settings.check()?;
+        let PlanSettings { fastest, duration, .. } = *settings;
+        let (noise, noise_origin) = settings.noise(questions);
+        let options = Options { fastest, duration, noise, method: questions.method().clone() };
         let counter = Counter::new(observer, STAGES.len());
         let progress = |stage| counter.advance(stage, 1);
         let name = vehicle.name().to_owned();
         let found = guarded(|| {
-            trackdyn_diagnose::plan(questions.questions(), vehicle.file(), settings, &progress)
+            trackdyn_diagnose::plan(questions.questions(), vehicle.file(), &options, &progress)
                 .map_err(|cause| match cause {
                     trackdyn_diagnose::Error::Cancelled => Error::Cancelled,
                     cause => Error::Plan { vehicle: name.clone(), cause },
@@ -143,7 +224,8 @@ impl Plan {
         let made_from = format!("{}{}", questions.document.text(), vehicle.to_toml());
         Ok(Self {
             found,
-            settings: settings.clone(),
+            options,
+            noise_origin,
             vehicle: name,
             fingerprint: fingerprint(made_from.as_bytes()),
         })
@@ -154,9 +236,9 @@ impl Plan {
         &self.vehicle
     }
 
-    /// How it was planned.
-    pub fn settings(&self) -> &PlanSettings {
-        &self.settings
+    /// The noise of the poses that it is planned for, and where that comes from.
+    pub fn noise(&self) -> (&SegmentNoise, NoiseOrigin) {
+        (&self.options.noise, self.noise_origin)
     }
 
     /// All that was found.
@@ -176,7 +258,7 @@ impl Plan {
             fingerprint: self.fingerprint.clone(),
             ..provenance.source()
         };
-        PlanFile::new(&self.found, &self.settings, source)
+        PlanFile::new(&self.found, &self.options, source)
     }
 
     /// Writes `plan.csv`, a schedule for the simulator and the robot, and `plan.toml`. Where there

@@ -30,10 +30,15 @@ type Argued = (&'static str, &'static str, &'static [&'static str], &'static str
 /// All numeric constants of the diagnosis, and of what it uses.
 const ARGUED: &[Argued] = &[
     // definitions and formats
-    ("diagnose", "base.rs", &["OFFSETS", "SHOWN_BY_INERTIA"], "places of unknowns"),
+    ("diagnose", "base.rs", &["OFFSETS", "INERTIA_UNKNOWNS"], "places of unknowns"),
     ("diagnose", "compare.rs", &["STAGES"], "stages, as they are reported"),
     ("diagnose", "compare/quantity.rs", &["HALF"], "quantile of a 95 % interval"),
-    ("diagnose", "compare/words.rs", &["MAX_DECIMALS", "LISTED"], "how numbers are written"),
+    (
+        "diagnose",
+        "compare/words.rs",
+        &["MAX_DECIMALS", "MAX_LISTED_DIFFERENCES"],
+        "how numbers are written",
+    ),
     ("diagnose", "diagnosis/pipeline.rs", &["STAGES"], "stages, as they are reported"),
     (
         "diagnose",
@@ -41,13 +46,15 @@ const ARGUED: &[Argued] = &[
         &["STAGES", "STAGES_SHARPENED"],
         "stages, as they are reported",
     ),
+    ("diagnose", "document.rs", &["DIGITS"], "how numbers are written"),
     ("diagnose", "document/noise.rs", &["LIMITS"], "what a file may hold"),
     ("diagnose", "error.rs", &["USUAL_DURATION"], "an example in a message"),
     ("diagnose", "evidence/planned.rs", &["READINGS"], "a planned sample is the paper's"),
     ("diagnose", "evidence/ticks.rs", &["ORDER", "DIFFERENCE"], "the third difference"),
+    ("diagnose", "plan.rs", &["DIGITS"], "how numbers are written"),
     ("diagnose", "plan/menu.rs", &["SIDES"], "signs of both sides"),
     ("diagnose", "verdict/support.rs", &["RESAMPLED_SEED"], "any seed draws as well"),
-    ("estimate", "gyroscope/level.rs", &["SEEN"], "a value is the sum of both states"),
+    ("estimate", "gyroscope/level.rs", &["OBSERVATION_ROW"], "a value is the sum of both states"),
     ("estimate", "gyroscope/level.rs", &["VARIANCE_OF_MEDIAN"], "a property of the median"),
     ("estimate", "interval.rs", &["NORMAL_QUANTILE"], "quantile of a 95 % interval"),
     ("estimate", "left_over.rs", &["RAYLEIGH_MEDIAN"], "a property of the normal distribution"),
@@ -75,7 +82,7 @@ const ARGUED: &[Argued] = &[
     ("estimate", "gyroscope/level.rs", &["DIFFERENCES"], "makes whitening a difference"),
     ("estimate", "segment.rs", &["MAX_INTERVALS"], "keeps a count finite"),
     ("estimate", "thinned.rs", &["INTERVAL_ROUNDING"], "rounding of a time"),
-    ("estimate", "variances.rs", &["NONE", "LIMITS"], "stand for the logarithm of none"),
+    ("estimate", "variances.rs", &["LN_ZERO", "LIMITS"], "stand for the logarithm of none"),
     (
         "estimate",
         "weighting.rs",
@@ -99,15 +106,8 @@ const ARGUED: &[Argued] = &[
     (
         "estimate",
         "gauss_newton.rs",
-        &[
-            "HUBER",
-            "COST_ROUNDING",
-            "START_DAMPING",
-            "MIN_DAMPING",
-            "DAMPING_INCREASE",
-            "DAMPING_DECREASE",
-        ],
-        "steps of identification; Huber's own threshold",
+        &["COST_ROUNDING", "START_DAMPING", "MIN_DAMPING", "DAMPING_INCREASE", "DAMPING_DECREASE"],
+        "steps of identification",
     ),
     ("estimate", "noise/stamps.rs", &["CLIMB"], "variances to a hundredth: a search starts there"),
     // defaults that settings take from here

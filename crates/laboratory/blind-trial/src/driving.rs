@@ -6,6 +6,7 @@ use crate::random::uniform;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::PI;
+use trackdyn_core::rounding::Digits;
 use trackdyn_core::{Pose, Schedule};
 use trackdyn_drive::{ScheduleKind, ScheduleOptions};
 
@@ -54,7 +55,7 @@ impl Driving {
         let [style, other] = if random.random() { kinds } else { [kinds[1], kinds[0]] };
         // larger robots are faster, and the yaw rates of a spin stay alike
         let fastest = uniform(random, 0.5, 1.1) * (machine.vehicle.gauge / 0.42).sqrt();
-        let fastest = (100.0 * fastest).round() / 100.0;
+        let fastest = Digits::Decimals(2).round(fastest);
         let count = TRAINING_RUNS + HELD_OUT_RUNS;
         let options = ScheduleOptions {
             runs: Some(count),

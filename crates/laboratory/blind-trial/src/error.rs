@@ -116,6 +116,38 @@ pub enum Error {
         /// What is asked for.
         asked: String,
     },
+    /// A folder of results that belong to another trial.
+    #[error("{}: of another trial: expected another folder by --out", folder.display())]
+    OtherTrial {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A folder with plans for another time.
+    #[error(
+        "{}: the plans here are for {begun} s: expected --duration {begun}, or another folder by \
+         --out",
+        folder.display()
+    )]
+    OtherDuration {
+        /// The folder.
+        folder: PathBuf,
+        /// The time that they are for, s.
+        begun: u32,
+    },
+    /// A schedule that cannot be read.
+    #[error(transparent)]
+    Schedule(#[from] trackdyn_drive::Error),
+    /// A program that cannot be run.
+    #[error("{}: cannot be run: {cause}", path.display())]
+    Program {
+        /// The program.
+        path: PathBuf,
+        /// What the system says.
+        cause: std::io::Error,
+    },
+    /// A room that cannot be made, or a process that cannot be waited for.
+    #[error(transparent)]
+    System(std::io::Error),
     /// A number or a name that will not do.
     #[error("{name} = {value}: expected {expected}")]
     Option {

@@ -10,10 +10,12 @@
 //! - [`draft`]: a trial in the making, which can be interrupted.
 //! - [`key`]: keys, and what comes of one.
 //! - [`seal`]: the commitment to the answers.
-//! - [`entry`]: the programs that are put to it.
+//! - [`entry`]: the programs that are put to it; [`room`]: where a process of one runs.
+//! - [`sitting`], [`shard`]: the cases that a program is to diagnose.
 //! - [`diagnosis`], [`score`]: what came back, and what it is worth.
 //! - [`opened`]: trials whose answers are open, scored by themselves or together.
-//! - [`revisit`]: a case once more, driven by another schedule.
+//! - [`revisit`]: a case once more, driven by another schedule; [`visit`]: by the one that is
+//!   planned for its diagnosis.
 //! - [`folder`]: the folder of a trial, in which nothing but the recordings tells cases apart.
 //!
 //! The diagnosis is not part of this crate: it is a program that gets a recording and a vehicle
@@ -44,10 +46,14 @@ pub mod plan;
 mod random;
 mod recorded;
 pub mod revisit;
+pub mod room;
 pub mod score;
 pub mod seal;
+pub mod shard;
 mod signature;
+pub mod sitting;
 mod subspace;
+pub mod visit;
 
 pub use answer::{Answer, Answers};
 pub use case::Case;
@@ -62,4 +68,8 @@ pub use key::{Key, Root};
 pub use opened::Opened;
 pub use order::Order;
 pub use plan::{PlannedCase, Stratum, plan};
+pub use room::{Program, Room};
 pub use score::Score;
+pub use shard::Shard;
+pub use sitting::Sitting;
+pub use visit::Visits;

@@ -12,6 +12,9 @@ const WRONG_RATIO_SHARE: f64 = 0.6;
 /// Share of owners whose centre of gravity is off.
 const WRONG_COG_SHARE: f64 = 0.5;
 
+/// Digits of the numbers of a data sheet.
+const DIGITS: Digits = Digits::Decimals(4);
+
 /// A robot.
 #[derive(Clone, Debug)]
 pub struct Machine {
@@ -34,17 +37,17 @@ impl Machine {
         let cog = [gauge * uniform(random, -0.05, 0.05), length * uniform(random, -0.06, 0.06)];
         let hull = [1.1 * length, 1.25 * gauge];
         let gyration = (hull[0].hypot(hull[1]) / 12.0_f64.sqrt()) * uniform(random, 0.85, 1.15);
-        let friction = Friction { across: rounded(across), along: rounded(along) };
+        let friction = Friction { across: DIGITS.round(across), along: DIGITS.round(along) };
         let vehicle = Vehicle {
             name: "robot".to_owned(),
-            mass: rounded(mass),
-            gauge: rounded(gauge),
-            cog: cog.map(rounded),
+            mass: DIGITS.round(mass),
+            gauge: DIGITS.round(gauge),
+            cog: cog.map(|value| DIGITS.round(value)),
             running_gear,
             uncertainty: trackdyn_model::vehicle::Uncertainty::default(),
             friction,
         };
-        Self { vehicle, gyration: rounded(gyration) }
+        Self { vehicle, gyration: DIGITS.round(gyration) }
     }
 
     /// Weight, N.
@@ -75,13 +78,14 @@ impl Machine {
         let (ratio, [x, y]) = (0.08 * normal(random), [normal(random), normal(random)]);
         if happens(random, WRONG_RATIO_SHARE) {
             let factor = (ratio / 2.0).clamp(-0.1, 0.1).exp();
-            vehicle.friction.across = rounded(vehicle.friction.across * factor);
-            vehicle.friction.along = rounded(vehicle.friction.along / factor);
+            vehicle.friction.across = DIGITS.round(vehicle.friction.across * factor);
+            vehicle.friction.along = DIGITS.round(vehicle.friction.along / factor);
         }
         if happens(random, WRONG_COG_SHARE) {
             vehicle.cog[0] =
-                rounded(vehicle.cog[0] + 0.012 * self.vehicle.gauge * x.clamp(-2.0, 2.0));
-            vehicle.cog[1] = rounded(vehicle.cog[1] + 0.015 * self.length() * y.clamp(-2.0, 2.0));
+                DIGITS.round(vehicle.cog[0] + 0.012 * self.vehicle.gauge * x.clamp(-2.0, 2.0));
+            vehicle.cog[1] =
+                DIGITS.round(vehicle.cog[1] + 0.015 * self.length() * y.clamp(-2.0, 2.0));
         }
         vehicle
     }
@@ -89,8 +93,8 @@ impl Machine {
 
 fn track(gauge: f64, random: &mut ChaCha8Rng) -> RunningGear {
     RunningGear::Track {
-        contact_length: rounded(gauge * uniform(random, 0.9, 1.8)),
-        belt_width: rounded(gauge * uniform(random, 0.15, 0.35)),
+        contact_length: DIGITS.round(gauge * uniform(random, 0.9, 1.8)),
+        belt_width: DIGITS.round(gauge * uniform(random, 0.15, 0.35)),
     }
 }
 
@@ -98,9 +102,9 @@ fn wheels(gauge: f64, random: &mut ChaCha8Rng) -> RunningGear {
     let half = gauge * uniform(random, 0.35, 0.55);
     let axles = if happens(random, 0.75) { vec![half, -half] } else { vec![half, 0.0, -half] };
     RunningGear::Wheels {
-        contact_length: rounded(gauge * uniform(random, 0.1, 0.2)),
-        width: rounded(gauge * uniform(random, 0.15, 0.28)),
-        axles: axles.into_iter().map(rounded).collect(),
+        contact_length: DIGITS.round(gauge * uniform(random, 0.1, 0.2)),
+        width: DIGITS.round(gauge * uniform(random, 0.15, 0.28)),
+        axles: axles.into_iter().map(|value| DIGITS.round(value)).collect(),
     }
 }
 
@@ -114,9 +118,4 @@ fn length(gear: &RunningGear) -> f64 {
             high - low + contact_length
         }
     }
-}
-
-/// As a data sheet prints it.
-pub(crate) fn rounded(value: f64) -> f64 {
-    Digits::Decimals(4).round(value)
 }

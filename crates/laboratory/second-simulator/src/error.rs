@@ -36,6 +36,19 @@ pub enum Error {
         /// The value that was given.
         value: f64,
     },
+    /// A parameter of an effect whose law has a constant here.
+    #[error(
+        "effect {id}:{key} = {value}: expected it left out on the independent ground, whose law \
+         has no such parameter"
+    )]
+    Constant {
+        /// The effect.
+        id: String,
+        /// The key of its parameter.
+        key: String,
+        /// The value that was given.
+        value: f64,
+    },
     /// A parameter given twice.
     #[error("{}.{}: given twice", sheet.id, parameter.key)]
     RepeatedParameter {

@@ -15,7 +15,7 @@ use clap::Args;
 use std::path::PathBuf;
 use trackdyn::compare::Prepared;
 use trackdyn::crates::diagnose::Evidence;
-use trackdyn::{CompareSettings, HeldOut, Vehicle};
+use trackdyn::{CompareSettings, Vehicle};
 
 /// Options of `trackdyn compare`.
 #[derive(Args)]
@@ -58,7 +58,7 @@ pub fn run(options: &Options) -> Outcome {
     let sim = options.recording.read_all(sim, &part)?;
     let real = options.recording.read_all(&options.with, &part)?;
     let settings = CompareSettings {
-        held_out: both_held_out(options)?,
+        held_out: held_out("--held-out-real", options.held_out.as_deref())?,
         gyroscope: options.method.gyroscope,
         resampling: options.method.resampling(),
         method: options.method.method()?,
@@ -73,14 +73,4 @@ pub fn run(options: &Options) -> Outcome {
     say_written(&changes);
     show(&summary::text(&comparison))?;
     Ok(Exit::Done)
-}
-
-/// `none` is for both sets, a list for the robot's.
-fn both_held_out(options: &Options) -> Result<[HeldOut; 2], String> {
-    let real = held_out("--held-out-real", options.held_out.as_deref())?;
-    let sim = match real {
-        HeldOut::None => HeldOut::None,
-        _ => HeldOut::EveryFourth,
-    };
-    Ok([sim, real])
 }

@@ -14,7 +14,6 @@ use crate::stderr::say;
 use crate::stdout::show;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use trackdyn::crates::drive::Tracker;
 use trackdyn::crates::drive::tracking::Estimate;
 use trackdyn::drive::Prepared;
 use trackdyn::{DriveSettings, Parameters, Path};
@@ -35,12 +34,12 @@ pub struct Options {
     #[arg(long, value_enum, default_value_t = Knows::Truth)]
     estimate: Knows,
     /// Speed on open ground, m/s
-    #[arg(long, value_name = "SPEED", default_value_t = Tracker::default().speed,
+    #[arg(long, value_name = "SPEED", default_value_t = DriveSettings::default().speed,
           value_parser = finite)]
     speed: f64,
     /// Look-ahead of the path tracker, m
-    #[arg(long, value_name = "M", default_value_t = Tracker::default().look_ahead,
-          value_parser = finite)]
+    #[arg(long, value_name = "M", value_parser = finite,
+          default_value_t = DriveSettings::default().look_ahead)]
     look_ahead: f64,
     /// Leave inertia out: the robot is at its stationary motion at once
     #[arg(long)]
@@ -75,10 +74,8 @@ pub fn run(options: &Options) -> Outcome {
         forces: options.forces,
     };
     note_what_no_sensor_reports(vehicle.effects());
-    let path = match &options.path {
-        Some(path) => Path::read(path)?,
-        None => Path::square(3.0, true, 1)?,
-    };
+    let path = options.path.as_ref().map(|path| Path::read(path)).transpose()?;
+    let path = path.unwrap_or_default();
     let parameters = options.kinematics.iter().map(Parameters::open);
     let parameters = parameters.collect::<Result<Vec<_>, _>>()?;
     let prepared = Prepared::new(&vehicle, &path, &parameters, &settings)?;

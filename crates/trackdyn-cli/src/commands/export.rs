@@ -68,7 +68,7 @@ struct Ros2Options {
     #[arg(long, value_name = "JOINT", alias = "right-wheel")]
     right_joint: Vec<Name>,
     /// Name of the controller
-    #[arg(long, value_name = "NAME", default_value = "diff_drive_controller")]
+    #[arg(long, value_name = "NAME", default_value = Ros2Settings::CONTROLLER)]
     controller: NodeName,
     /// Odometry file (schema trackdyn.odometry/1) of a replay with these kinematics, best of runs
     /// that they were not fitted to: for the covariances
@@ -131,10 +131,10 @@ struct GzOptions {
     #[command(flatten)]
     files: Files,
     /// Link of a track on the left; repeatable
-    #[arg(long, value_name = "LINK", default_value = "left_track")]
+    #[arg(long, value_name = "LINK", default_values_t = GzSettings::default().left_tracks)]
     left_track: Vec<Name>,
     /// Link of a track on the right; repeatable
-    #[arg(long, value_name = "LINK", default_value = "right_track")]
+    #[arg(long, value_name = "LINK", default_values_t = GzSettings::default().right_tracks)]
     right_track: Vec<Name>,
 }
 
@@ -211,10 +211,10 @@ struct Files {
 #[derive(Args)]
 struct FrameOptions {
     /// Frame of the odometry
-    #[arg(long, value_name = "FRAME", default_value = "odom")]
+    #[arg(long, value_name = "FRAME", default_value_t = FrameSettings::default().odom)]
     odom_frame: Name,
     /// Frame midway between the ICRs: parent of the base frame
-    #[arg(long, value_name = "FRAME", default_value = "icr_link")]
+    #[arg(long, value_name = "FRAME", default_value_t = FrameSettings::default().icr)]
     icr_frame: Name,
     /// Root link of the robot's URDF [default: the frame whose poses the log has, else base_link]
     #[arg(long, value_name = "FRAME")]

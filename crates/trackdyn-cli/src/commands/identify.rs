@@ -9,7 +9,7 @@ use crate::changes::{say_undetermined, say_written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::folder::prepare_folder;
-use crate::options::{DrivingOptions, GaugeOptions, not_negative, refuse_for_points};
+use crate::options::{DrivingOptions, GaugeOptions, not_negative, refuse_for_points, small};
 use crate::progress::Progress;
 use crate::provenance::provenance;
 use crate::stderr::note;
@@ -39,15 +39,18 @@ pub struct Options {
     #[arg(long)]
     gyroscope: bool,
     /// Individuals of the genetic algorithm
-    #[arg(long, help_heading = GENETIC, value_name = "N", default_value_t = 100,
+    #[arg(long, help_heading = GENETIC, value_name = "N",
+          default_value_t = small(GeneticOptions::default().population),
           value_parser = clap::value_parser!(u32).range(4..=100_000))]
     population: u32,
     /// Generations of the genetic algorithm
-    #[arg(long, help_heading = GENETIC, value_name = "N", default_value_t = 200,
+    #[arg(long, help_heading = GENETIC, value_name = "N",
+          default_value_t = small(GeneticOptions::default().generations),
           value_parser = clap::value_parser!(u32).range(1..=100_000))]
     generations: u32,
     /// Seed of the genetic algorithm
-    #[arg(long, help_heading = GENETIC, value_name = "N", default_value_t = 1)]
+    #[arg(long, help_heading = GENETIC, value_name = "N",
+          default_value_t = GeneticOptions::default().seed)]
     seed: u64,
     /// Write parameters that other parts of the answer contradict as well, marked as doubtful
     #[arg(long)]

@@ -34,10 +34,6 @@ pub struct Options {
     circumstance: CircumstanceOptions,
 }
 
-/// Standard deviation of an ICR over the map, m, from which on its mean is not all that there is to
-/// say.
-const MIN_SHOWN_DEVIATION: f64 = 1e-3;
-
 /// Prints the motion for track speeds, or track speeds for a motion.
 pub fn run(options: &Options) -> Outcome {
     let file = parameters(options)?;
@@ -63,10 +59,7 @@ fn parameters(options: &Options) -> Result<Parameters, Box<dyn Error>> {
     let circumstance = options.circumstance.circumstance();
     let map = icr_map(&vehicle, &MapSettings { circumstance, ..MapSettings::default() });
     let none = "the vehicle does not turn at any pair of track speeds: it has no ICRs";
-    let statistics = map.statistics().ok_or(none)?;
-    let spread = statistics.spread.to_array().into_iter().fold(0.0, f64::max);
-    // a piecewise map has the ICRs of each sector
-    if map.solved().sectors().is_empty() && spread > MIN_SHOWN_DEVIATION {
+    if let Some(spread) = map.untold_spread() {
         note(format_args!(
             "the ICRs of this vehicle go with the speeds, by {:.1} mm up to {} m/s: these \
             are their means",

@@ -17,10 +17,9 @@ use clap::Args;
 use next::Place;
 use std::path::PathBuf;
 use trackdyn::crates::diagnose;
-use trackdyn::crates::estimate::weighting::SegmentNoise;
 use trackdyn::diagnose::corrected_beside;
-use trackdyn::plan::{assumed_noise, remove_earlier};
-use trackdyn::{Error, OpenQuestions, Plan, PlanSettings, Vehicle};
+use trackdyn::plan::remove_earlier;
+use trackdyn::{Error, Limits, OpenQuestions, Plan, PlanSettings, Vehicle};
 
 /// Options of `trackdyn plan`.
 #[derive(Args)]
@@ -33,10 +32,12 @@ pub struct Options {
     #[arg(long, value_name = "FILE|NAME")]
     vehicle: Option<PathBuf>,
     /// Largest track speed, m/s
-    #[arg(long, value_name = "SPEED", default_value_t = 1.0, value_parser = speed)]
+    #[arg(long, value_name = "SPEED", default_value_t = PlanSettings::default().fastest,
+          value_parser = speed)]
     fastest: f64,
     /// Time for all manoeuvres together, s
-    #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = time)]
+    #[arg(long, value_name = "SECONDS", default_value_t = PlanSettings::default().duration,
+          value_parser = time)]
     duration: f64,
     /// Standard deviation of a pose along each axis, m [default: as the diagnosis measured it, else
     /// 0.001]
@@ -69,8 +70,8 @@ pub fn run(options: &Options) -> Outcome {
     let settings = PlanSettings {
         fastest: options.fastest,
         duration: options.duration,
-        noise: options.noise(&questions),
-        method: questions.method().clone(),
+        noise_xy: options.noise_xy,
+        noise_yaw: options.noise_yaw,
     };
     let plan = Progress::over(|observer| Plan::new(&questions, &vehicle, &settings, observer));
     let plan = plan.map_err(|error| -> Box<dyn std::error::Error> {
@@ -91,7 +92,7 @@ pub fn run(options: &Options) -> Outcome {
         vehicle: &options.vehicle_file(),
         out: &options.out,
     };
-    let text = summary::text(&plan, options.origin(&questions));
+    let text = summary::text(&plan);
     show(&(text + &next::text(&plan, &questions, &place)))?;
     if plan.schedule().is_none() {
         say_removed(&changes);
@@ -101,32 +102,6 @@ pub fn run(options: &Options) -> Outcome {
 }
 
 impl Options {
-    /// The noise as given, along the axes or in yaw, else as the diagnosis measured it, else that
-    /// of a laboratory.
-    fn noise(&self, questions: &OpenQuestions) -> SegmentNoise {
-        let assumed = PlanSettings::default().noise;
-        let mut noise = questions.noise().unwrap_or(assumed);
-        if let Some(xy) = self.noise_xy {
-            let SegmentNoise { pose: [forward, left, _], .. } = assumed_noise(xy, 0.0);
-            (noise.pose[0], noise.pose[1]) = (forward, left);
-            (noise.walk[0], noise.walk[1]) = (forward, left);
-        }
-        if let Some(yaw) = self.noise_yaw {
-            let SegmentNoise { pose: [_, _, yaw], .. } = assumed_noise(0.0, yaw);
-            (noise.pose[2], noise.walk[2], noise.heading) = (yaw, yaw, 0.0);
-        }
-        noise
-    }
-
-    /// Where the noise comes from.
-    fn origin(&self, questions: &OpenQuestions) -> &'static str {
-        match (self.noise_xy.or(self.noise_yaw), questions.noise()) {
-            (Some(_), _) => "as given",
-            (None, Some(_)) => "as the diagnosis measured it",
-            (None, None) => "assumed, for the diagnosis does not tell: --noise-xy, --noise-yaw",
-        }
-    }
-
     /// The vehicle as an argument.
     fn vehicle_file(&self) -> PathBuf {
         let beside = || corrected_beside(&self.diagnosis);
@@ -143,21 +118,19 @@ fn vehicle(options: &Options) -> Result<Vehicle, Box<dyn std::error::Error>> {
     }
 }
 
-/// A number within limits.
-fn between(text: &str, low: f64, high: f64, unit: &str) -> Result<f64, String> {
-    let expected = || format!("expected {low} to {high} {unit}");
-    let value = finite(text).map_err(|_| expected())?;
-    if (low..=high).contains(&value) { Ok(value) } else { Err(expected()) }
+fn within(text: &str, limits: Limits) -> Result<f64, String> {
+    let value = finite(text).ok().filter(|value| limits.hold(*value));
+    value.ok_or_else(|| format!("expected {limits}"))
 }
 
 fn speed(text: &str) -> Result<f64, String> {
-    between(text, 0.05, 10.0, "m/s")
+    within(text, PlanSettings::SPEED_LIMITS)
 }
 
 fn time(text: &str) -> Result<f64, String> {
-    between(text, 1.0, 3600.0, "s")
+    within(text, PlanSettings::DURATION_LIMITS)
 }
 
 fn noise(text: &str) -> Result<f64, String> {
-    between(text, 1e-6, 10.0, "m or rad")
+    within(text, PlanSettings::NOISE_LIMITS)
 }

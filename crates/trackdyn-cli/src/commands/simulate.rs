@@ -15,15 +15,14 @@ use clap::{Args, ValueEnum};
 use ground::Independent;
 use std::path::PathBuf;
 use trackdyn::SimulateSettings;
-use trackdyn::crates::model::Transient;
-use trackdyn::simulate::{Prepared, refuse_other, sensors};
+use trackdyn::simulate::{Driving, Prepared, refuse_other, sensors};
 use trackdyn_second_simulator::ActiveMechanism;
 
 /// Options of `trackdyn simulate`.
 #[derive(Args)]
 pub struct Options {
     /// What the tracks do: manual, validation, designed, square, or a file t,v_left,v_right
-    #[arg(long, value_name = "NAME|FILE", default_value = "manual")]
+    #[arg(long, value_name = "NAME|FILE", default_value_t = Driving::default().to_string())]
     schedule: String,
     /// Runs of a schedule that is generated [default: what is usual for it]
     #[arg(long = "run-count", alias = "runs", value_name = "N", value_parser = count)]
@@ -37,7 +36,8 @@ pub struct Options {
     #[arg(long, value_name = "SPEED", value_parser = finite)]
     fastest: Option<f64>,
     /// Sensors: perfect, laboratory, field, or a file (schema trackdyn.sensors/1)
-    #[arg(long, value_name = "NAME|FILE", default_value = "laboratory")]
+    #[arg(long, value_name = "NAME|FILE",
+          default_value_t = SimulateSettings::default().sensors.name)]
     sensors: String,
     /// Leave inertia out: the robot is at its stationary motion at once
     #[arg(long)]
@@ -51,10 +51,11 @@ pub struct Options {
     #[arg(long = "mechanism", value_name = "ID[:PARAMETER=VALUE,...]")]
     mechanisms: Vec<ActiveMechanism>,
     /// Longest step of the integration, s
-    #[arg(long, value_name = "SECONDS", default_value_t = Transient::STEP, value_parser = step)]
+    #[arg(long, value_name = "SECONDS", value_parser = step,
+          default_value_t = SimulateSettings::default().longest_step)]
     step: f64,
     /// Seed of schedules and noise
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = SimulateSettings::default().seed)]
     seed: u64,
     /// Folder for the recording, the true motion (truth.csv) and what it was made from
     #[arg(long, value_name = "DIR", default_value = "out/recording")]

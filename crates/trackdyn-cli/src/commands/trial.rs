@@ -3,7 +3,6 @@
 mod drive;
 mod figures;
 mod make;
-mod room;
 mod run;
 mod score;
 

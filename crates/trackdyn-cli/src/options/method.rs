@@ -1,5 +1,6 @@
 //! Options of a diagnosis that a comparison has, too.
 
+use super::small;
 use clap::Args;
 use std::path::PathBuf;
 use trackdyn::{Error, HeldOut, MethodSettings, Resampling};
@@ -14,11 +15,13 @@ pub struct MethodOptions {
     #[arg(long, help_heading = None::<&str>)]
     pub gyroscope: bool,
     /// Draws of the bootstrap behind the tests
-    #[arg(long, help_heading = BOOTSTRAP, value_name = "N", default_value_t = 2000,
+    #[arg(long, help_heading = BOOTSTRAP, value_name = "N",
+          default_value_t = small(Resampling::default().draws),
           value_parser = clap::value_parser!(u32).range(1000..=100_000))]
     draws: u32,
     /// Seed of the bootstrap
-    #[arg(long, help_heading = BOOTSTRAP, value_name = "N", default_value_t = 1)]
+    #[arg(long, help_heading = BOOTSTRAP, value_name = "N",
+          default_value_t = Resampling::default().seed)]
     seed: u64,
     /// Numbers of the method that differ from their defaults: a table such as `[verdict]` with
     /// max_p = 0.001
@@ -52,12 +55,6 @@ impl MethodOptions {
 /// # Errors
 /// A message that names the option and its value.
 pub fn held_out(option: &str, given: Option<&str>) -> Result<HeldOut, String> {
-    match given {
-        None => Ok(HeldOut::EveryFourth),
-        Some("none") => Ok(HeldOut::None),
-        Some(list) => {
-            let runs = list.parse().map_err(|error| format!("{option} {list}: {error}"))?;
-            Ok(HeldOut::Runs(runs))
-        }
-    }
+    let Some(text) = given else { return Ok(HeldOut::default()) };
+    text.parse().map_err(|error| format!("{option} {text}: {error}"))
 }

@@ -1,12 +1,11 @@
 //! A comparison as a file, schema `trackdyn.comparison/1`.
 
 use super::{Comparison, Difference, Estimate, Quantity, Subject, Which};
-use crate::document::DriftTable;
+use crate::document::{DIGITS, DriftTable, SupportTable, by_keys};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use toml::Table;
 use trackdyn_core::document::{Document, DocumentError};
-use trackdyn_core::rounding::Digits;
 use trackdyn_model::kinematics::Source;
 
 const SCHEMA: &str = "trackdyn.comparison/1";
@@ -73,17 +72,6 @@ pub struct DifferenceTable {
     /// What each effect that explains constants would have to be more in the robot.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub members: Vec<MemberTable>,
-}
-
-/// Support of a difference.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-pub struct SupportTable {
-    /// Family-wise p value.
-    pub p: f64,
-    /// ln Bayes factor of a difference against none.
-    pub ln_bayes_factor: f64,
-    /// Cross-validated gain of log-likelihood.
-    pub held_out_gain: f64,
 }
 
 /// A number in each set.
@@ -154,14 +142,7 @@ impl ComparisonFile {
         let letters = |of: Vec<trackdyn_model::effect::Symmetry>| -> Vec<String> {
             of.into_iter().map(|symmetry| symmetry.letter().to_string()).collect()
         };
-        let mut smallest: BTreeMap<String, BTreeMap<String, f64>> = BTreeMap::new();
-        for one in &comparison.smallest {
-            let card = one.effect.card();
-            if let Some(size) = one.size {
-                let of = smallest.entry(card.id.to_owned()).or_default();
-                of.insert(card.parameters[one.parameter].key.to_owned(), rounded(size));
-            }
-        }
+        let smallest = comparison.smallest.iter();
         let table = |source: &Source, set: usize| {
             let mut table = Table::try_from(source).expect("a source is a table");
             let seen = &comparison.diagnoses[set].evidence.seen;
@@ -169,7 +150,7 @@ impl ComparisonFile {
             table
         };
         let [sim, real] = [table(sim, 0), table(real, 1)];
-        let [first, corrected, second] = comparison.closer.errors.map(rounded);
+        let [first, corrected, second] = comparison.closer.errors.map(|value| DIGITS.round(value));
         let instruments = comparison.instruments.iter().flat_map(|group| &group.numbers);
         let not_shown = comparison.not_shown.iter();
         Self {
@@ -191,11 +172,11 @@ impl ComparisonFile {
                 sim: first,
                 corrected,
                 real: second,
-                left: rounded(comparison.closer.left),
-                tolerated: rounded(comparison.closer_tolerated()),
+                left: DIGITS.round(comparison.closer.left),
+                tolerated: DIGITS.round(comparison.closer_tolerated()),
                 drift: DriftTable::of(&comparison.closer.drift),
             },
-            smallest,
+            smallest: by_keys(smallest.map(|one| (one.effect, one.parameter, one.size))),
             sim,
             real,
         }
@@ -251,11 +232,7 @@ fn difference(one: &Difference) -> DifferenceTable {
         which: which.to_owned(),
         one_of: one.one_of.iter().map(|effect| effect.name().to_owned()).collect(),
         refused: one.refused.as_ref().map(ToString::to_string),
-        evidence: SupportTable {
-            p: rounded(one.support.p),
-            ln_bayes_factor: rounded(one.support.ln_bayes_factor),
-            held_out_gain: rounded(one.support.held_out_gain),
-        },
+        evidence: SupportTable::of(&one.support),
         numbers: one.group.numbers.iter().map(number).collect(),
         members: members.collect(),
     }
@@ -273,11 +250,6 @@ fn number(quantity: &Quantity) -> NumberTable {
 }
 
 fn estimate(of: &Estimate) -> EstimateTable {
-    let [value, low95, high95] = [of.value, of.low, of.high].map(rounded);
+    let [value, low95, high95] = [of.value, of.low, of.high].map(|value| DIGITS.round(value));
     EstimateTable { value, low95, high95 }
-}
-
-/// A number rounded to the digits of the file.
-fn rounded(value: f64) -> f64 {
-    Digits::Significant(9).round(value)
 }

@@ -60,7 +60,7 @@ impl InNoise {
         let measured = Weighted::new(seen);
         let base = Base::new(file, &measured, watch)?;
         if let Some(reason) = base.as_filed.mechanics.failure() {
-            return Err(Error::NoMotion(reason.to_owned()));
+            return Err(reason.clone().into());
         }
         if !turns(&base.as_filed, &measured.settings().base) {
             return Err(Error::NoTurning);

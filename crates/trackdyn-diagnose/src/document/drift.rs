@@ -1,6 +1,6 @@
 //! Drift of dead reckoning, in units of driving.
 
-use super::rounded;
+use super::DIGITS;
 use crate::drift::{Compared, Drift};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -70,16 +70,17 @@ impl ComparedTable {
     /// The table of a drift over a way of `over`; pieces are counted in `unit`.
     fn of(compared: Compared, over: f64, unit: f64) -> Self {
         let Compared { before, after, pose_noise, pieces, length } = compared;
-        let value = |of: Estimate| rounded(over * of.value);
-        let ends = |of: Estimate| of.interval().map(|ends| ends.map(|end| rounded(over * end)));
+        let value = |of: Estimate| DIGITS.round(over * of.value);
+        let ends =
+            |of: Estimate| of.interval().map(|ends| ends.map(|end| DIGITS.round(over * end)));
         Self {
             before: value(before),
             before95: ends(before),
             after: value(after),
             after95: ends(after),
-            pose_noise: rounded(over * pose_noise),
+            pose_noise: DIGITS.round(over * pose_noise),
             pieces,
-            piece: rounded(length / unit),
+            piece: DIGITS.round(length / unit),
         }
     }
 }

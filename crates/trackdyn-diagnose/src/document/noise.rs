@@ -1,6 +1,6 @@
 //! The noise of the poses, as a diagnosis measured it.
 
-use super::rounded;
+use super::DIGITS;
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 use trackdyn_core::document::{Document, DocumentError};
@@ -39,7 +39,7 @@ const LIMITS: [f64; 2] = [0.0, 1e3];
 impl NoiseTable {
     /// The table of noise whose variances these are.
     pub(crate) fn of(noise: &SegmentNoise) -> Self {
-        let deviation = |variance: f64| rounded(variance.max(0.0).sqrt());
+        let deviation = |variance: f64| DIGITS.round(variance.max(0.0).sqrt());
         let [pose_forward_m, pose_left_m, pose_yaw_rad] = noise.pose.map(deviation);
         let [walk_forward_m, walk_left_m, walk_yaw_rad] = noise.walk.map(deviation);
         let walk_heading_rad = deviation(noise.heading);

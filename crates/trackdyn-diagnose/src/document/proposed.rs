@@ -1,6 +1,6 @@
 //! Tables of a proposed law.
 
-use super::{ParameterTable, SupportTable, rounded};
+use super::{DIGITS, ParameterTable, SupportTable};
 use crate::proposal::Proposal;
 use serde::{Deserialize, Serialize};
 use trackdyn_model::effect::Symmetry;
@@ -59,18 +59,14 @@ pub(super) fn terms(proposal: &Proposal) -> Vec<ProposedTable> {
                 form: card.id.to_owned(),
                 term: proposed.term.key.to_owned(),
                 component: proposed.term.component.to_owned(),
-                value: rounded(size.value),
-                low95: rounded(size.value - size.half),
-                high95: rounded(size.value + size.half),
+                value: DIGITS.round(size.value),
+                low95: DIGITS.round(size.value - size.half),
+                high95: DIGITS.round(size.value + size.half),
                 unit: proposed.term.unit.to_owned(),
                 what: proposed.phrase(proposal.contact_length),
                 symmetries: letters(&proposed.term.breaks),
                 parameters: parameters.collect(),
-                evidence: SupportTable {
-                    p: rounded(proposed.support.p),
-                    ln_bayes_factor: rounded(proposed.support.ln_bayes_factor),
-                    held_out_gain: rounded(proposed.support.held_out_gain),
-                },
+                evidence: SupportTable::of(&proposed.support),
             }
         })
         .collect()
@@ -79,9 +75,9 @@ pub(super) fn terms(proposal: &Proposal) -> Vec<ProposedTable> {
 /// Table of the law.
 pub(super) fn law(proposal: &Proposal) -> ProposalTable {
     ProposalTable {
-        explains: proposal.explains().map(rounded),
-        held_out_before: rounded(proposal.held_out.before),
-        held_out_after: rounded(proposal.held_out.after),
+        explains: proposal.explains().map(|value| DIGITS.round(value)),
+        held_out_before: DIGITS.round(proposal.held_out.before),
+        held_out_after: DIGITS.round(proposal.held_out.after),
         left_over: letters(&proposal.left_over),
     }
 }

@@ -66,30 +66,31 @@ impl Evidence {
         let tau = clock.tau();
         let poses = Poses::quieter(&recording, tau, settings);
         let poses = if by_gyroscope { poses.with_gyroscope(tau, settings) } else { poses };
-        let seen = segments(&poses.recording, tau, None, by);
+        let seen = segments(poses.recording(), tau, None, by);
         let spin = spin_test(&seen, gauge, &settings.spin);
         let gap = spin.map_or(by.gap_without_spins * gauge, |spin| spin.gap);
         let noise = noise_of_segments(&poses, &seen, gap, gauge)?;
         let blocks = seen.blocks(by.min_whole_runs);
-        let has_world = share_a_frame(&poses.recording, &settings.frames);
-        let begin = poses.recording.begin();
+        let has_world = share_a_frame(poses.recording(), &settings.frames);
+        let begin = poses.recording().begin();
         let samples = if let Some(Filled { recording, has_place }) = poses.filled(by) {
             // Poses that the gyroscope does not join are as far apart as they were.
             let longest = longest_pose_interval(&seen);
             let observations = segments(&recording, tau, Some(longest), by);
             samples(&recording, &has_place, &observations, &blocks, begin)
         } else {
-            let has_place = all_seen(&poses.recording);
-            samples(&poses.recording, &has_place, &seen, &blocks, begin)
+            let has_place = all_seen(poses.recording());
+            samples(poses.recording(), &has_place, &seen, &blocks, begin)
         };
         check_number(&samples, by.min_segments)?;
-        let Poses { recording, corrected, .. } = poses;
-        let gyroscope = corrected.map(|found| found.map(|corrected| corrected.gyroscope));
+        let tracks = tracks(poses.recording(), &samples, begin);
+        let runs = poses.recording().runs().iter().map(Run::id).collect();
+        let gyroscope = poses.corrected.map(|found| found.map(|corrected| corrected.gyroscope));
         Ok(Self {
-            tracks: tracks(&recording, &samples, begin).into(),
+            tracks: tracks.into(),
             samples: samples.into(),
             blocks: blocks.count(),
-            runs: recording.runs().iter().map(Run::id).collect(),
+            runs,
             tau,
             begin,
             has_world,
@@ -146,7 +147,7 @@ fn noise_of_segments(
     gap: f64,
     gauge: f64,
 ) -> Result<SegmentNoise, Error> {
-    let stated = || poses.recording.stated_noise().map(SegmentNoise::stated);
+    let stated = || poses.recording().stated_noise().map(SegmentNoise::stated);
     let remaining = || residual_noise(observations, gauge);
     let measured = SegmentNoise::measured(&poses.noise, gap);
     measured.or_else(stated).or_else(remaining).ok_or(Error::NoNoise)
@@ -210,7 +211,8 @@ fn tracks(recording: &Recording, samples: &[Sample], begin: f64) -> Vec<Vec<Trac
 
 /// A recording with the best of its poses.
 struct Poses<'a> {
-    recording: Cow<'a, Recording>,
+    /// The recording before a gyroscope corrects it.
+    uncorrected: Cow<'a, Recording>,
     /// Their noise, measured without a model.
     noise: Noise,
     /// The recording as a gyroscope corrects it, or why not; none where it was not asked.
@@ -228,24 +230,30 @@ impl<'a> Poses<'a> {
             let axes = noise.moving.as_ref()?.of_pose;
             Some(axes.iter().map(|white| white.max(MIN_POSE_NOISE).ln()).sum())
         };
-        let (recording, noise) = match (level(&as_stamped), level(&as_due)) {
+        let (uncorrected, noise) = match (level(&as_stamped), level(&as_due)) {
             (Some(stamped), Some(level)) if level < stamped => (Cow::Owned(due), as_due),
             _ => (Cow::Borrowed(recording), as_stamped),
         };
-        Self { recording, noise, corrected: None }
+        Self { uncorrected, noise, corrected: None }
+    }
+
+    /// The recording, as a gyroscope corrects it where one serves.
+    fn recording(&self) -> &Recording {
+        match &self.corrected {
+            Some(Ok(corrected)) => &corrected.recording,
+            Some(Err(_)) | None => &self.uncorrected,
+        }
     }
 
     /// The poses with their yaw corrected by a gyroscope; as they are where it does not serve. They
     /// stand at their times, so it tells where they look.
     fn with_gyroscope(self, tau: f64, settings: &Settings) -> Self {
-        match with_gyroscope(&self.recording, tau, &settings.gyroscope) {
-            Ok(corrected) => Self {
-                recording: Cow::Owned(corrected.recording.clone()),
-                noise: noise(&corrected.recording, tau, &settings.measured_noise),
-                corrected: Some(Ok(corrected)),
-            },
-            Err(unfit) => Self { corrected: Some(Err(unfit)), ..self },
-        }
+        let corrected = with_gyroscope(&self.uncorrected, tau, &settings.gyroscope);
+        let noise = match &corrected {
+            Ok(corrected) => noise(&corrected.recording, tau, &settings.measured_noise),
+            Err(_) => self.noise,
+        };
+        Self { noise, corrected: Some(corrected), ..self }
     }
 
     /// The recording with the yaw between its poses, where a gyroscope tells it.

@@ -12,7 +12,7 @@ use crate::hypothesis::Unknown;
 use crate::settings;
 use crate::surface::Surface;
 use std::sync::Arc;
-use trackdyn_core::Twist;
+use trackdyn_core::{Stopped, Twist};
 use trackdyn_model::effect::Card;
 use trackdyn_model::{ActiveEffect, Drive, Effects};
 
@@ -66,7 +66,7 @@ pub struct InertiaNear {
 
 impl InertiaNear {
     /// Departure simulated for this case, without derivatives. `inert` are the effects of inertia.
-    pub fn here(inert: Vec<ActiveEffect>, case: &Case) -> Result<Self, String> {
+    pub fn here(inert: Vec<ActiveEffect>, case: &Case) -> Result<Self, Stopped> {
         let at = Inertia::new(inert, case)?;
         at.forget_steps();
         Ok(Self { at: Arc::new(at), slopes: Vec::new(), shift: None })
@@ -82,7 +82,7 @@ impl InertiaNear {
         free: &[Unknown],
         delay: f64,
         within: Within,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, Stopped> {
         let knows = |near: &Self| free.iter().all(|by| near.slope(*by).is_some());
         let known = before.filter(|before| knows(before));
         if let Some(near) = known.and_then(|known| known.moved(&inert, case, within)) {
@@ -170,7 +170,7 @@ impl InertiaNear {
         &self,
         samples: &[Sample],
         delay: f64,
-    ) -> Result<[Vec<Twist>; 3], String> {
+    ) -> Result<[Vec<Twist>; 3], Stopped> {
         let changes = self.at.changes_by_starts()?;
         let of = |twists: &Vec<Vec<Twist>>| {
             samples.iter().map(|sample| self.at.mean_over(sample, delay, twists)).collect()

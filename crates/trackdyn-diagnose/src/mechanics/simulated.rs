@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
-use trackdyn_core::{PerSide, Plant, Pose, Side, Trajectory, Twist};
+use trackdyn_core::{PerSide, Plant, Pose, Side, Stopped, Trajectory, Twist};
 use trackdyn_model::contact::Resolution;
 use trackdyn_model::transient::{Step, mean_of_stages, tangents};
 use trackdyn_model::{ActiveEffect, Circumstance, Drive, Effects, Model, Vehicle};
@@ -131,7 +131,7 @@ pub struct Inertia {
 
 impl Inertia {
     /// Simulates a case. `inert` are the effects of inertia.
-    pub fn new(inert: Vec<ActiveEffect>, case: &Case) -> Result<Self, String> {
+    pub fn new(inert: Vec<ActiveEffect>, case: &Case) -> Result<Self, Stopped> {
         let Case { model, largest, drive, starts, evidence, .. } = *case;
         let settings = case.settings().clone();
         let surface = Surface::new(model, largest, settings.speed_range, Some(case.surface));
@@ -171,7 +171,7 @@ impl Inertia {
     ///
     /// # Errors
     /// The simulation fails.
-    pub fn fine_steps(&self) -> Result<Arc<Vec<Vec<Step>>>, String> {
+    pub fn fine_steps(&self) -> Result<Arc<Vec<Vec<Step>>>, Stopped> {
         if let Some(kept) = self.kept_steps().clone() {
             return Ok(kept);
         }
@@ -317,7 +317,7 @@ impl Inertia {
     ///
     /// # Errors
     /// The simulation fails.
-    pub fn changes_by_starts(&self) -> Result<[Vec<Vec<Twist>>; 3], String> {
+    pub fn changes_by_starts(&self) -> Result<[Vec<Vec<Twist>>; 3], Stopped> {
         let alike = [0; 3].map(|_| self.model.clone());
         let axes = [0, 1, 2].map(|axis| Twist::from_array(Vector3::ith(axis, 1.0).into()));
         let creep = self.settings.stick_speed;
@@ -427,7 +427,7 @@ fn fine(
     surface: &Surface,
     (belts, starts): (&[Vec<TrackSample>], Option<&[Twist]>),
     settings: &settings::Mechanics,
-) -> Result<Vec<(Trajectory, Vec<Step>)>, String> {
+) -> Result<Vec<(Trajectory, Vec<Step>)>, Stopped> {
     let steps = Steps::fine(settings);
     let path = |(run, belts): (usize, &Vec<TrackSample>)| {
         let run = (&belts[..], start(starts, run));
@@ -444,7 +444,7 @@ fn path_in_time(
     (belts, departing): (&[TrackSample], Twist),
     steps: Steps,
     creep: f64,
-) -> Result<(Trajectory, Vec<Step>), String> {
+) -> Result<(Trajectory, Vec<Step>), Stopped> {
     let mut path = Trajectory::default();
     let Some(first) = belts.first() else { return Ok((path, Vec::new())) };
     let start = surface.motion(first.speeds()).twist(&[0.0; 3]) + departing;
@@ -456,9 +456,7 @@ fn path_in_time(
         .with_steps();
     path.push(robot.moment());
     for pair in belts.windows(2) {
-        robot
-            .drive(pair[0].speeds(), pair[1].t, &mut path)
-            .map_err(|stopped| stopped.to_string())?;
+        robot.drive(pair[0].speeds(), pair[1].t, &mut path)?;
     }
     Ok((path, robot.into_steps()))
 }

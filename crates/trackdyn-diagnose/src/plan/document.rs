@@ -1,6 +1,6 @@
 //! The plan as a file, schema `trackdyn.plan/1`.
 
-use super::{Answer, Options, Plan, measurement, rounded};
+use super::{Answer, DIGITS, Options, Plan, measurement};
 use crate::document::NoiseTable;
 use serde::Serialize;
 use trackdyn_estimate::weighting::SegmentNoise;
@@ -33,7 +33,7 @@ impl PlannedNoise {
     fn of(noise: &SegmentNoise) -> Self {
         let [forward, left, _] = noise.pose;
         Self {
-            pose_xy_m: rounded(f64::midpoint(forward, left).sqrt()),
+            pose_xy_m: DIGITS.round(f64::midpoint(forward, left).sqrt()),
             of_axes: NoiseTable::of(noise),
         }
     }
@@ -76,27 +76,27 @@ impl PlanFile {
         let duration = plan.duration();
         let manoeuvre = plan.steps.iter().map(|step| ManoeuvreTable {
             name: step.manoeuvre.name.clone(),
-            start_s: rounded(step.start),
-            duration_s: rounded(step.manoeuvre.duration()),
+            start_s: DIGITS.round(step.start),
+            duration_s: DIGITS.round(step.manoeuvre.duration()),
             separates: plan
                 .pairs
                 .iter()
                 .zip(&step.z)
                 .map(|(pair, &z)| SeparationTable {
                     members: ids(pair.effects),
-                    z: rounded(z),
-                    z_per_second: rounded(z / step.manoeuvre.duration()),
+                    z: DIGITS.round(z),
+                    z_per_second: DIGITS.round(z / step.manoeuvre.duration()),
                 })
                 .collect(),
         });
         let pair = plan.pairs.iter().map(|pair| PairTable {
             members: ids(pair.effects),
-            z: rounded(pair.z),
-            z_per_second: if duration > 0.0 { rounded(pair.z / duration) } else { 0.0 },
-            z_of_menu: rounded(pair.menu),
+            z: DIGITS.round(pair.z),
+            z_per_second: if duration > 0.0 { DIGITS.round(pair.z / duration) } else { 0.0 },
+            z_of_menu: DIGITS.round(pair.menu),
             decides: pair.answer == Answer::Plan,
             needed_s: match pair.answer {
-                Answer::Longer(time) => Some(rounded(time)),
+                Answer::Longer(time) => Some(DIGITS.round(time)),
                 Answer::Plan | Answer::Never => None,
             },
             measure: match pair.answer {
@@ -106,7 +106,7 @@ impl PlanFile {
         });
         Self {
             schema: "trackdyn.plan/1",
-            duration_s: rounded(duration),
+            duration_s: DIGITS.round(duration),
             fastest_m_s: options.fastest,
             noise: PlannedNoise::of(&options.noise),
             manoeuvre: manoeuvre.collect(),

@@ -18,6 +18,13 @@ impl Path {
     }
 }
 
+impl Default for Path {
+    /// A square of 3 m, once to the left.
+    fn default() -> Self {
+        Self::square(3.0, true, 1).expect("numbers in range")
+    }
+}
+
 fn check(name: &'static str, size: f64, laps: usize) -> Result<(), Error> {
     if !(size > 0.0 && size <= 1e5) {
         return Err(Error::option(name, &size, "a positive length in m, at most 100000"));

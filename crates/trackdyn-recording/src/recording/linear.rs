@@ -14,7 +14,7 @@ use super::Run;
 use super::motion::{DELAY_STEP, DELAYS, Piece, pieces_of, thinned};
 use crate::hold::travelled;
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
-use trackdyn_core::robust::deviation_about_zero;
+use trackdyn_core::robust::{HUBER_THRESHOLD, deviation_about_zero};
 use trackdyn_core::{PerSide, Side, real};
 
 /// Usual least time of a piece, s.
@@ -29,9 +29,8 @@ const MAX_PIECES: usize = 2000;
 /// Parts of the log that count as independent.
 const PARTS: usize = 20;
 
-/// Rounds of reweighting by Huber's loss, and its limit in standard deviations.
+/// Rounds of reweighting by Huber's loss.
 const ROUNDS: usize = 10;
-const HUBER_THRESHOLD: f64 = 1.345;
 
 /// Row of a fit: D_l, D_r, T, and turn, way forward.
 type Row = (Vector3<f64>, [f64; 2]);

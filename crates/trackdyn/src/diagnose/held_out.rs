@@ -1,6 +1,7 @@
 //! Which runs are held out.
 
 use crate::{Error, MethodSettings};
+use std::str::FromStr;
 use trackdyn_recording::{Recording as Motion, RunList};
 
 /// Runs that nothing is fitted or chosen on.
@@ -14,6 +15,15 @@ pub enum HeldOut {
     None,
     /// These.
     Runs(RunList),
+}
+
+/// Reads `none`, or a list of runs such as `9-11`.
+impl FromStr for HeldOut {
+    type Err = <RunList as FromStr>::Err;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        if text == "none" { Ok(Self::None) } else { text.parse().map(Self::Runs) }
+    }
 }
 
 impl HeldOut {

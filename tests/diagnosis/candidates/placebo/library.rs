@@ -1,9 +1,9 @@
 //! The family: what is free, the signatures of the catalogue, and placebos.
 
-use super::noise::normal;
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use rand_distr::StandardNormal;
 use std::f64::consts::TAU;
 use trackdyn_core::real;
 use trackdyn_diagnose::base::Base;
@@ -153,7 +153,7 @@ impl Smooth {
         };
         let waves = [0; 3].map(|_| {
             let wave = [0; 2].map(|_| TAU / 2.0 * (2.0 * random.random::<f64>() - 1.0));
-            [wave[0], wave[1], TAU * random.random::<f64>(), normal(random)]
+            [wave[0], wave[1], TAU * random.random::<f64>(), random.sample(StandardNormal)]
         });
         Self { arguments, scale: [widest(0), widest(1)], waves }
     }

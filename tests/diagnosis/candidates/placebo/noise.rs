@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use rand_distr::StandardNormal;
 use trackdyn_diagnose::Evidence;
 
 /// What the whitened residuals are.
@@ -35,7 +36,7 @@ impl Noise {
         let samples = evidence.samples().iter();
         samples
             .map(|sample| {
-                let mut white = || Vector3::from_fn(|_, _| normal(&mut random));
+                let mut white = || Vector3::from_fn(|_, _| random.sample(StandardNormal));
                 let z = white();
                 match self {
                     Self::White => z,
@@ -59,10 +60,4 @@ impl Noise {
             })
             .collect()
     }
-}
-
-/// A standard normal number (Box and Muller).
-pub fn normal(random: &mut ChaCha8Rng) -> f64 {
-    let radius = (-2.0 * (1.0 - random.random::<f64>()).ln()).sqrt();
-    radius * (std::f64::consts::TAU * random.random::<f64>()).cos()
 }

@@ -1,6 +1,6 @@
 //! Mechanisms that are switched on.
 
-use super::{MECHANISMS, from_values};
+use super::{MECHANISMS, from_values, sheet_of};
 use crate::error::Error;
 use crate::form::Form;
 use crate::mechanism::Mechanism;
@@ -47,6 +47,29 @@ impl ActiveMechanism {
         let values = values.into_iter().zip(sheet.parameters);
         let values = values.map(|(value, parameter)| value.unwrap_or(parameter.typical)).collect();
         Ok(Self { index, values, form: Form::Plain })
+    }
+
+    /// The mechanism of the name of a catalogue's effect, by the parameters of the effect: key,
+    /// value and default. Where the law here has a constant instead, the value has to be the
+    /// default.
+    ///
+    /// # Errors
+    /// [`Error::Constant`]; those of [`ActiveMechanism::new`].
+    pub fn of_effect<'a>(
+        id: &str,
+        parameters: impl IntoIterator<Item = (&'a str, f64, f64)>,
+    ) -> Result<Self, Error> {
+        let sheet = sheet_of(id);
+        let has = |key: &str| sheet.is_none_or(|sheet| sheet.parameter(key).is_some());
+        let mut settings = Vec::new();
+        for (key, value, default) in parameters {
+            if has(key) {
+                settings.push((key, value));
+            } else if value != default {
+                return Err(Error::Constant { id: id.to_owned(), key: key.to_owned(), value });
+            }
+        }
+        Self::new(id, &settings)
     }
 
     /// With this form of its law.

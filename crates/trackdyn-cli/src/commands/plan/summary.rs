@@ -9,10 +9,17 @@ use trackdyn::crates::diagnose::noise;
 use trackdyn::crates::diagnose::plan::menu::Manoeuvre;
 use trackdyn::crates::diagnose::plan::{Answer, Separation, measurements};
 use trackdyn::crates::model::EffectId;
+use trackdyn::plan::NoiseOrigin;
 
-/// The text of a plan; `origin` tells where its noise comes from.
-pub fn text(plan: &Plan, origin: &str) -> String {
-    let noise = noise::sentence(&plan.settings().noise);
+/// The text of a plan.
+pub fn text(plan: &Plan) -> String {
+    let (noise, origin) = plan.noise();
+    let noise = noise::sentence(noise);
+    let origin = match origin {
+        NoiseOrigin::Given => "as given",
+        NoiseOrigin::Measured => "as the diagnosis measured it",
+        NoiseOrigin::Assumed => "assumed, for the diagnosis does not tell: --noise-xy, --noise-yaw",
+    };
     let mut text = format!("vehicle  {}\n", plan.vehicle());
     text += &wrapped("noise    ", &format!("{noise} ({origin})"));
     let plan = plan.found();

@@ -3,7 +3,7 @@
 use trackdyn::crates::core::{Plant, Pose, Schedule};
 use trackdyn::simulate::{Ground, Motion};
 use trackdyn::{ActiveEffect, SimulateSettings, Vehicle};
-use trackdyn_second_simulator::{ActiveMechanism, Robot, Setup, sheet_of};
+use trackdyn_second_simulator::{ActiveMechanism, Error, Robot, Setup};
 
 /// The independent mechanisms of the names of the vehicle's effects, and those outside the
 /// catalogue.
@@ -60,26 +60,15 @@ impl Ground for Independent<'_> {
     }
 }
 
-/// The mechanism of an effect's name. Its law has constants where the effect's has parameters:
-/// these are then to be left as they are.
+/// The mechanism of an effect's name.
 fn mechanism_of(effect: &ActiveEffect) -> Result<ActiveMechanism, String> {
     let card = effect.card();
-    let sheet = sheet_of(card.id);
-    let has = |key: &str| {
-        sheet.is_none_or(|sheet| sheet.parameters.iter().any(|parameter| parameter.key == key))
-    };
-    let mut settings = Vec::new();
-    for (parameter, &value) in card.parameters.iter().zip(effect.values()) {
-        if has(parameter.key) {
-            settings.push((parameter.key, value));
-        } else if value != card.default_of(parameter) {
-            return Err(format!(
-                "--effect {}:{} = {value}: expected it left out on the independent ground, whose \
-                law has no such \
-                 parameter",
-                card.id, parameter.key
-            ));
-        }
-    }
-    ActiveMechanism::new(card.id, &settings).map_err(|error| error.to_string())
+    let values = card.parameters.iter().zip(effect.values());
+    let values =
+        values.map(|(parameter, &value)| (parameter.key, value, card.default_of(parameter)));
+    ActiveMechanism::of_effect(card.id, values).map_err(|error| match error {
+        // begins with the option
+        Error::Constant { .. } => format!("--{error}"),
+        error => error.to_string(),
+    })
 }

@@ -1,22 +1,18 @@
 //! `trackdyn trial run`: a process per case, which sees nothing of the trial.
 
 use super::key_file;
-use super::room::{OUT, Program, Room};
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::interrupt::before_the_end;
 use crate::progress::Progress;
 use crate::stderr::{note, say};
 use crate::stdout::show;
 use clap::Args;
 use std::error::Error;
-use std::fs;
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
-use std::time::{Duration, Instant};
-use trackdyn::crates::core::output::write_file;
-use trackdyn_blind_trial::driving::HELD_OUT;
+use std::time::Duration;
 use trackdyn_blind_trial::seal::Commitment;
-use trackdyn_blind_trial::{Diagnosis, Entry, folder};
+use trackdyn_blind_trial::{Entry, Program, Shard, Sitting, folder};
 
 /// Options of `trackdyn trial run`.
 #[derive(Args)]
@@ -42,57 +38,32 @@ pub struct Options {
     retry: bool,
 }
 
-/// A part of the cases.
-#[derive(Clone, Copy)]
-struct Shard {
-    index: usize,
-    of: usize,
-}
-
-impl FromStr for Shard {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let parts = text.split_once('/').and_then(|(index, of)| {
-            Some(Self { index: index.parse().ok()?, of: of.parse().ok()? })
-        });
-        parts
-            .filter(|shard| (1..=shard.of).contains(&shard.index))
-            .ok_or_else(|| "expected I/N with I from 1 to N, such as 2/4".to_owned())
-    }
-}
-
 /// Diagnoses the cases that have not been.
 pub fn run(options: &Options) -> Outcome {
-    let entry = entry(options)?;
-    let program = program(options)?;
-    let cases = folder::cases(&options.trial)?;
+    let (entry, program) = (entry(options)?, program(options)?);
+    let shard = options.shard.unwrap_or_default();
+    let sitting = Sitting::take_up(&options.trial, entry, shard, options.retry)?;
     note_what_is_within_reach(&options.trial, &folder::commitment(&options.trial)?);
-    let Shard { index, of } = options.shard.unwrap_or(Shard { index: 1, of: 1 });
-    let mine: Vec<&PathBuf> = cases.iter().skip(index - 1).step_by(of).collect();
-    let is_done =
-        |case: &Path| entry.has_diagnosed(case) || (!options.retry && entry.has_failed(case));
-    let open: Vec<&PathBuf> = mine.iter().copied().filter(|case| !is_done(case)).collect();
+    let open = sitting.open();
     let progress = Progress::new(open.len());
     let mut failed = 0;
-    for case in &open {
-        if let Some(reason) = diagnose(case, &entry, &program)? {
+    for case in open {
+        if let Some(reason) = sitting.diagnose(case, &program, before_the_end)? {
             failed += 1;
             let name = case.file_name().unwrap_or_default().to_string_lossy();
             say(format_args!("{name}: {}", reason.lines().next().unwrap_or_default()));
-            write_file(&entry.failure(case), reason.as_bytes())?;
         }
         progress.advance(1);
     }
     progress.finish();
-    let before = mine.len() - open.len();
+    let before = sitting.count() - open.len();
     let diagnosed = open.len() - failed;
-    let lost = mine.iter().filter(|case| entry.has_failed(case)).count() - failed;
+    let lost = sitting.failed() - failed;
     let lost = if lost == 0 { String::new() } else { format!(" ({lost} of them failed)") };
     show(&format!(
         "{}: {} cases: {diagnosed} diagnosed now, {failed} failed, {before} before{lost}\n",
-        entry.name(),
-        mine.len(),
+        sitting.entry().name(),
+        sitting.count(),
     ))?;
     Ok(if failed > 0 && diagnosed == 0 { Exit::NoResult } else { Exit::Done })
 }
@@ -130,37 +101,4 @@ fn entry(options: &Options) -> Result<Entry, Box<dyn Error>> {
             entry.map_err(|error| format!("{error}: give it a name by --name").into())
         }
     }
-}
-
-/// Diagnoses a case in a room of its own, and takes back what was written, or says why there is
-/// nothing.
-fn diagnose(
-    case: &Path,
-    entry: &Entry,
-    program: &Program,
-) -> Result<Option<String>, Box<dyn Error>> {
-    let room = Room::new()?;
-    for name in [folder::RECORDING, folder::VEHICLE] {
-        room.bring(&case.join(name), name)?;
-    }
-    let started = Instant::now();
-    let arguments =
-        [folder::RECORDING, "--vehicle", folder::VEHICLE, "--held-out", HELD_OUT, "--out", OUT];
-    if let Some(reason) = room.run(program, &arguments)? {
-        return Ok(Some(reason));
-    }
-    let seconds = started.elapsed().as_secs_f64();
-    if let Err(error) = Diagnosis::read(&room.out()) {
-        return Ok(Some(format!("the process wrote no diagnosis\n{error}")));
-    }
-    let text = format!("seconds = {seconds:.3}\n");
-    write_file(&room.out().join("run.toml"), text.as_bytes())?;
-    if let Err(reason) = room.take(&entry.diagnosis(case)) {
-        return Ok(Some(reason));
-    }
-    let failure = entry.failure(case);
-    if failure.exists() {
-        fs::remove_file(failure)?;
-    }
-    Ok(None)
 }

@@ -4,8 +4,8 @@
 //! What the process gets is copied in, what it wrote is taken out when it has ended: neither its
 //! arguments nor its working folder lead to anything else.
 
-use crate::interrupt::Undo;
-use std::error::Error;
+use crate::error::Error;
+use std::any::Any;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -23,6 +23,9 @@ const STDERR_FILE: &str = "stderr.txt";
 /// The folder that the process writes to, below its own.
 pub const OUT: &str = "out";
 
+/// Takes what a signal that ends the program has to do first, as long as what it gives lives.
+pub type Guard = fn(Box<dyn FnOnce() + Send>) -> Box<dyn Any>;
+
 /// A program.
 pub struct Program {
     /// Where it is.
@@ -36,30 +39,35 @@ pub struct Program {
 /// A folder for one process.
 pub struct Room {
     folder: TempDir,
-    _removed: Undo,
+    guard: Guard,
+    _removed: Box<dyn Any>,
 }
 
 impl Room {
-    /// An empty room.
-    pub fn new() -> io::Result<Self> {
-        let folder = tempfile::Builder::new().prefix("trackdyn-").tempdir()?;
-        fs::create_dir(folder.path().join(OUT))?;
+    /// An empty room. A signal that ends the program removes it, and ends its process.
+    ///
+    /// # Errors
+    /// [`Error::System`].
+    pub fn new(guard: Guard) -> Result<Self, Error> {
+        let folder = tempfile::Builder::new().prefix("trackdyn-").tempdir();
+        let folder = folder.map_err(Error::System)?;
+        fs::create_dir(folder.path().join(OUT)).map_err(Error::System)?;
         let path = folder.path().to_owned();
-        let removed = Undo::new(move || {
+        let removed = guard(Box::new(move || {
             // The program ends: there is nobody left to tell.
             let _ = fs::remove_dir_all(path);
-        });
-        Ok(Self { folder, _removed: removed })
+        }));
+        Ok(Self { folder, guard, _removed: removed })
     }
 
     /// Copies a file or a folder in, under a name.
     ///
     /// # Errors
-    /// What is to be copied, and why it cannot be.
-    pub fn bring(&self, from: &Path, name: &str) -> Result<(), String> {
+    /// [`Error::File`]: what is to be copied, and why it cannot be.
+    pub fn bring(&self, from: &Path, name: &str) -> Result<(), Error> {
         let to = self.folder.path().join(name);
         let brought = if from.is_dir() { copy(from, &to) } else { fs::copy(from, to).map(drop) };
-        brought.map_err(|cause| format!("{}: {cause}", from.display()))
+        brought.map_err(Error::file(from))
     }
 
     /// Where the process writes to.
@@ -68,11 +76,10 @@ impl Room {
     }
 
     /// Runs a program here until it ends, and says why it failed; nothing where it did not.
-    pub fn run(
-        &self,
-        program: &Program,
-        arguments: &[&str],
-    ) -> Result<Option<String>, Box<dyn Error>> {
+    ///
+    /// # Errors
+    /// [`Error::Program`] for one that cannot be run, [`Error::System`].
+    pub fn run(&self, program: &Program, arguments: &[&str]) -> Result<Option<String>, Error> {
         let status = self.wait(program, arguments)?;
         let how = match status {
             Some(status) if status.success() => return Ok(None),
@@ -88,9 +95,9 @@ impl Room {
     /// Puts what was written in the place of a folder, whole.
     ///
     /// # Errors
-    /// The folder, and why it cannot be put there.
-    pub fn take(&self, place: &Path) -> Result<(), String> {
-        self.move_to(place).map_err(|cause| format!("{}: {cause}", place.display()))
+    /// [`Error::File`]: the folder, and why it cannot be put there.
+    pub fn take(&self, place: &Path) -> Result<(), Error> {
+        self.move_to(place).map_err(Error::file(place))
     }
 
     fn move_to(&self, place: &Path) -> io::Result<()> {
@@ -104,11 +111,8 @@ impl Room {
     }
 
     /// How the process ended; none where it took too long.
-    fn wait(
-        &self,
-        program: &Program,
-        arguments: &[&str],
-    ) -> Result<Option<ExitStatus>, Box<dyn Error>> {
+    fn wait(&self, program: &Program, arguments: &[&str]) -> Result<Option<ExitStatus>, Error> {
+        let stderr = File::create(self.folder.path().join(STDERR_FILE)).map_err(Error::System)?;
         let mut command = Command::new(&program.path);
         command
             .args(program.first)
@@ -117,7 +121,7 @@ impl Room {
             .env_clear()
             .stdin(Stdio::null())
             .stdout(Stdio::null())
-            .stderr(File::create(self.folder.path().join(STDERR_FILE))?);
+            .stderr(stderr);
         lead_a_group(&mut command);
         for name in ["PATH", "RAYON_NUM_THREADS"] {
             if let Some(value) = std::env::var_os(name) {
@@ -125,23 +129,21 @@ impl Room {
             }
         }
         let started = Instant::now();
-        let process = command
-            .spawn()
-            .map_err(|cause| format!("{}: cannot be run: {cause}", program.path.display()))?;
-        let process = Arc::new(Mutex::new(process));
+        let failed = |cause| Error::Program { path: program.path.clone(), cause };
+        let process = Arc::new(Mutex::new(command.spawn().map_err(failed)?));
         let also = Arc::clone(&process);
-        let _ended = Undo::new(move || {
+        let _ended = (self.guard)(Box::new(move || {
             let mut process = also.lock().unwrap_or_else(PoisonError::into_inner);
             // It may have ended by itself.
             let _ = end(&mut process);
-        });
+        }));
         loop {
             let mut process = process.lock().unwrap_or_else(PoisonError::into_inner);
-            if let Some(status) = process.try_wait()? {
+            if let Some(status) = process.try_wait().map_err(Error::System)? {
                 return Ok(Some(status));
             }
             if started.elapsed() > program.limit {
-                end(&mut process)?;
+                end(&mut process).map_err(Error::System)?;
                 return Ok(None);
             }
             drop(process);

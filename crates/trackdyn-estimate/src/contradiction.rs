@@ -67,13 +67,13 @@ const MIN_MOUNT: f64 = 0.17;
 settings_group! {
     /// By what poses are taken for computed from the tracks: they show no slip.
     Settings {
-        /// Largest part of the turning, and of the distance of the ICRs, that is left.
+        /// Largest part that is left of the turning and of the ICR distance.
         max_left: f64 = 2e-3, "", [0.0, 0.1],
-            "The time between readings, and rounding.",
+            "Time between readings, and rounding.",
             "Lower: such poses are diagnosed; higher: exact ones are refused.";
-        /// Largest distance of the ICRs from the tracks' centre-lines.
+        /// Largest distance of the ICRs from the centre-lines.
         max_off_centre_lines: f64 = 0.02, "gauge", [0.0, 0.1],
-            "Any contact longer than a point moves them further out.",
+            "Any real contact moves them further out.",
             "Lower: such poses are diagnosed; higher: short contacts are refused.";
     }
 }

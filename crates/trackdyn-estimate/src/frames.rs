@@ -15,11 +15,11 @@ settings_group! {
         min_pairs: usize = 5, "", [1.0, 1e6],
             "Fewer begin near one pose by chance.",
             "Lower: places of one world are thrown away.";
-        /// Largest spread of the first poses over that of the last ones.
+        /// Largest spread of first poses over that of last ones.
         max_spread: f64 = 0.25, "", [0.0, 1.0],
             "First poses then lie together.",
             "Higher: places of one world are thrown away; lower: those of several are mixed.";
-        /// Largest time between two runs, over that of the way back at the usual speed.
+        /// Largest pause between runs, over the way back at the usual speed.
         max_pause: f64 = 2.0, "", [0.0, 100.0],
             "Nobody drives back in less.",
             "Higher: robots that are driven back lose their world.";

@@ -18,15 +18,15 @@ use trackdyn_recording::{Recording, Run, UncheckedRun};
 settings_group! {
     /// How the times at which samples were due are found from stamps that jitter.
     Settings {
-        /// Fewest neighbours on either side by which a time is told; then twice as many, and so on.
+        /// Fewest neighbours on each side that tell a time; then twice as many, and so on.
         min_neighbours: usize = 5, "", [1.0, 1e6],
             "Fewer share their jitter.",
             "Lower: jitter stays; higher: a wandering clock is not followed.";
-        /// Fewest samples in a row that have an interval.
+        /// Fewest samples in a row with an interval.
         min_samples: usize = 4, "", [3.0, 1e6],
             "A line leaves two to judge it.",
             "Higher: short rows keep their jitter.";
-        /// Change of the interval, as a share of the usual one, from which there is a gap.
+        /// Change of the interval, over the usual one, that is a gap.
         min_gap: f64 = 0.5, "", [0.01, 10.0],
             "A missing sample changes it by one.",
             "Lower: jitter cuts rows; higher: gaps are bridged.";

@@ -10,7 +10,7 @@ use trackdyn_core::settings_group;
 settings_group! {
     /// Which driving tells the distance of the ICRs by itself.
     Settings {
-        /// Smallest yaw in all.
+        /// Smallest total yaw.
         min_yaw: f64 = PI, "rad", [0.01, 1e4],
             "Half a turn.",
             "Lower: noise of the poses sets the distance.";

@@ -117,13 +117,13 @@ fn markdown() -> String {
         ahead as fast as the encoders show.\n\n\
         The *class of constants* moves the constant ICRs and nothing else. ICRs alone do not tell \
         its members apart.\n\n\
-        A parameter's *role* is **size** where it says how large the effect is (an effect whose \
-        sizes are all neutral is not there), **place** or **direction** where it says where in \
-        the world it acts, **time** where it says when, and **shape** where it is a constant of \
-        the law.\n\n\
+        A parameter's *role* is **size** (how large the effect is: with neutral sizes there is \
+        none), **place** or **direction** (where in the world it acts), **time** (when it acts), \
+        or **shape** (a constant of the law).\n\n\
         An effect is a mechanism, unless its section has a table of coefficients: then it is a \
         *form*, which describes without a cause. A diagnosis never names a form; it proposes \
-        terms of one. Coefficients that are left out are none.\n\n"
+        terms of one. Coefficients in one row are one term, described by the first. Those left \
+        out are zero.\n\n"
         .to_owned();
     text += "| effect | what it is | breaks | acts at |\n|---|---|---|---|\n";
     for card in effects() {
@@ -154,10 +154,9 @@ fn markdown_terms(card: &Card) -> String {
         let breaks: String = term.breaks.iter().map(|symmetry| symmetry.letter()).collect();
         let _ = writeln!(
             text,
-            "| {} | {}{} | {breaks} | {} | {low} to {high} |",
+            "| {} | {} | {breaks} | {} | {low} to {high} |",
             keys.join(", "),
             parameter.meaning.replace('|', "\\|"),
-            if keys.len() > 1 { ", and what belongs to it" } else { "" },
             parameter.typical,
         );
     }

@@ -9,12 +9,11 @@ settings_group! {
         max_gap_deviation: f64 = 0.2, "gauge", [1e-3, 10.0],
             "Without evidence it is 0.71.",
             "Higher: straight driving is diagnosed.";
-        /// Own part of an instrument's squared signature for it to be free.
+        /// Own part of a free instrument's squared signature.
         min_own_share: f64 = 0.02, "", [0.0, 1.0],
             "Less is not told apart.",
             "Higher: sensor errors look like physics.";
-        /// Part of its prior deviation to which friction or centre of gravity must be known to
-        /// be free.
+        /// Posterior over prior deviation up to which friction or centre of gravity is free.
         max_known_share: f64 = 0.5, "", [0.0, 1.0],
             "Evidence then beats the owner.",
             "Lower: wrong friction looks like physics.";

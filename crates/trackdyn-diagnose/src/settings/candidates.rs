@@ -9,8 +9,7 @@ settings_group! {
         size_steps: [f64; 3] = [1.0, 0.2, -0.2], "", [-10.0, 10.0],
             "A typical step may tip a robot.",
             "The screen promises wrong sizes.";
-        /// Change of the motion that the base predicts, as a share of it, below which signatures
-        /// serve again.
+        /// Relative change of the base's motion below which signatures serve again.
         max_base_change: f64 = 0.05, "", [0.0, 1.0],
             "They change by as little, and sizes are refitted.",
             "Higher: the screen is of another robot.";
@@ -32,13 +31,13 @@ settings_group! {
             "Other anchors look like slopes.";
         /// Times of a change, in half the time that was driven, from its middle.
         times: [f64; 6] = [-1.1, -0.66, -0.22, 0.22, 0.66, 1.1], "", [-10.0, 10.0],
-            "A quarter of a recording apart; the outer ones are before and after.",
+            "A quarter of a recording apart, and before and after it.",
             "Short changes are missed.";
         /// Most places of an extent.
         max_places: usize = 40, "", [1.0, 1e5],
             "Others are seldom passed.",
             "Lower: patches are missed.";
-        /// Most rounds that refine a variant; of a time, at each length of the steps.
+        /// Most refining rounds of a variant; of a time, per step length.
         refining_rounds: usize = 6, "", [0.0, 100.0],
             "Steps and three halvings.",
             "Lower: places stay coarse.";

@@ -8,7 +8,7 @@ settings_group! {
     Evidence {
         /// Fewest segments of a recording.
         min_segments: usize = 60, "", [2.0, 1e6],
-            "6 s of driving with poses at 10 Hz.",
+            "6 s of poses at 10 Hz.",
             "Lower: noise and ICRs are hardly known.";
         /// Fewest points of a table.
         min_points: usize = 30, "", [3.0, 1e6],
@@ -16,13 +16,13 @@ settings_group! {
             "Lower: their scatter is hardly known.";
         /// Fewest runs that are a block each; fewer are cut into twice as many pieces.
         min_whole_runs: usize = Blocks::MIN_WHOLE_RUNS, "", [2.0, 1e4],
-            "The scatter of fewer blocks is a poor variance.",
+            "Fewer blocks give a poor variance.",
             "Lower: chance passes tests; higher: pieces pass for independent.";
         /// Most blocks of a table.
         max_table_blocks: usize = 48, "", [2.0, 1e4],
-            "As of a recording.",
-            "Higher: neighbours that shift alike pass for independent.";
-        /// How far a fitted clock may go beyond the recording's own offset.
+            "As for recordings.",
+            "Higher: dependent neighbours pass for independent.";
+        /// Farthest that a fitted clock goes beyond the recording's offset.
         clock_margin: f64 = 0.15, "s", [0.0, 10.0],
             "Room for a clock found without a model.",
             "Lower: late clocks end at the limit.";
@@ -30,53 +30,53 @@ settings_group! {
         max_coordinate: f64 = 1000.0, "m", [1.0, 1e9],
             "No effect has a place farther out.",
             "Higher: places are sought in vain.";
-        /// Track readings that come more often are averaged.
+        /// Quicker track readings are averaged.
         min_reading_interval: f64 = 0.01, "s", [0.0, 1.0],
             "Motions in time take no shorter steps.",
             "Higher: quick changes vanish.";
         /// Quicker poses are averaged; between slower ones a gyroscope tells yaw.
         min_pose_interval: f64 = 0.1, "s", [0.0, 10.0],
-            "Noise of quicker poses is hardly ever white.",
-            "Lower: slow, and one error of a filter counts often; higher: quick changes vanish.";
-        /// Distance of the ICRs assumed for a robot that never spins.
+            "Noise of quicker poses is seldom white.",
+            "Lower: slow, and a filter's error counts often; higher: quick changes vanish.";
+        /// ICR distance assumed for a robot that never spins.
         gap_without_spins: f64 = 1.5, "gauge", [0.5, 20.0],
             "Usual on hard ground.",
-            "Yaw noise starts too small or large.";
+            "Yaw noise starts wrong.";
         /// Whitened residual beyond which the loss is linear.
         huber_threshold: f64 = 3.4, "sd", [0.5, 1e9],
-            "1 % of normal ones are longer.",
+            "1 % of normal ones exceed it.",
             "Lower: power is lost; higher: outliers look like physics.";
-        /// Longest interval of updates between which a slow source holds its speeds.
+        /// Longest update interval of a source that holds its speeds.
         max_held: f64 = 0.5, "s", [0.0, 10.0],
             "Slower ones are commands.",
             "Lower: staircases look like a lag; higher: commands are blurred.";
-        /// Changes of a held speed for each one that may come earlier than its interval.
+        /// Changes of a held speed per one that may come early.
         held_changes_per_early_one: usize = 10, "", [1.0, 1e6],
             "Late stamps bring a change early.",
-            "Lower: what changes at any time is joined.";
-        /// Rise of twice the misfit up to which cleaned readings stand.
+            "Lower: any changing speed is joined.";
+        /// Rise of twice the misfit up to which cleaned readings are kept.
         max_rise_by_cleaning: f64 = 4.0, "", [0.0, 1e6],
             "Two standard deviations.",
             "Lower: jitter looks like a lag.";
-        /// Deviation of a run's first motion from the stationary one, of the fastest speed.
+        /// Prior deviation of a run's first motion from stationary, over the fastest speed.
         start_deviation: f64 = 0.5, "", [1e-3, 10.0],
-            "A log may be cut in any slide.",
-            "Lower: slides from before the log look like lags; higher: beginnings tell less.";
-        /// First speed of a track, of the fastest one, from which a run begins in motion.
+            "A log may begin in a slide.",
+            "Lower: earlier slides look like lags; higher: beginnings tell less.";
+        /// First track speed, over the fastest, from which a run begins in motion.
         min_start_speed: f64 = 0.05, "", [0.0, 1.0],
-            "Beyond the noise of encoders.",
-            "Higher: runs that are cut in a slide pass for stationary ones.";
+            "Beyond encoder noise.",
+            "Higher: runs cut in a slide pass for stationary.";
         /// Steps to the first motion of each run.
         start_rounds: usize = 8, "", [1.0, 100.0],
             "A step that does not help is halved.",
             "Lower: far slides are not found.";
-        /// Fits of first motions and of the rest in turn.
+        /// Alternating fits of first motions and of the rest.
         start_repeats: usize = 6, "", [1.0, 100.0],
             "Each depends on the other.";
         /// Fall of twice the misfit that ends them.
         min_fall_by_starts: f64 = 4.0, "", [0.0, 100.0],
             "Two standard deviations.",
-            "Lower: slower; higher: hypotheses are compared before their beginnings suit them.";
+            "Lower: slower; higher: beginnings do not suit a hypothesis yet.";
         /// First and last power of √10 tried for smoothing ticks.
         smoothing_powers: [f64; 2] = [-4.0, 10.0], "", [-20.0, 20.0],
             "The last spans forty readings.";

@@ -20,10 +20,10 @@ settings_group! {
         /// Promised fall that is too small to try.
         min_promised_fall: f64 = 0.01, "", [0.0, 10.0],
             "Far below chance.";
-        /// Relative error of a promised fall for which the Jacobian is kept.
+        /// Relative error of a promised fall that keeps the Jacobian.
         max_promise_error: f64 = 0.1, "", [0.0, 1.0],
             "Its steps stay good.";
-        /// Largest fall of twice the objective for which the Jacobian is kept at the end.
+        /// Largest fall of twice the objective that keeps the Jacobian at the end.
         max_fall_of_jacobian: f64 = 10.0, "", [0.0, 1e6],
             "It then describes the minimum.";
         /// Difference step of a size, as part of its distance from none.

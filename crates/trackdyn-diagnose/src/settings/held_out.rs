@@ -9,10 +9,10 @@ settings_group! {
         min_runs: usize = 8, "", [2.0, 1e6],
             "Of fewer, none can be spared.",
             "Lower: too little is left to fit.";
-        /// Number of runs of which the last is held out.
+        /// Every so many runs, the last is held out.
         every: usize = 4, "", [2.0, 1e6],
             "Three quarters are fitted.",
-            "Lower: less is fitted; higher: the judgement is by chance.";
+            "Lower: less is fitted; higher: chance judges.";
     }
 }
 

@@ -56,7 +56,7 @@ settings_group! {
         /// Way of a belt over which its waves are followed.
         max_belt_way: f64 = 50.0, "m", [1.0, 1e6],
             "Many turns of a sprocket.",
-            "Longer: more waves, and chance grows; shorter: a weak one is missed.";
+            "Longer: chance grows; shorter: weak ones are missed.";
         /// Fewest waves of a belt within that way.
         min_belt_waves: usize = 3, "", [1.0, 1e3],
             "Fewer look like a trend.",
@@ -69,14 +69,14 @@ settings_group! {
         score_ridge: f64 = 0.1, "", [1e-6, 10.0],
             "They may know nothing.",
             "Lower: what one block saw looks certain.";
-        /// Fewest samples for a manoeuvre to be named the worst.
+        /// Fewest samples of a manoeuvre named the worst.
         min_samples_named: usize = 20, "", [1.0, 1e6],
             "Their mean is known to a fifth.",
             "Lower: outliers name it.";
         /// Fewest samples of a cell of ICRs in pictures.
         min_samples_shown: usize = 12, "", [3.0, 1e6],
             "Four for each coordinate.";
-        /// Deviation of the ICRs of such a cell before they are seen.
+        /// Prior deviation of the ICRs of such a cell.
         shown_deviation: f64 = 10.0, "m", [1e-3, 1e6],
             "Nothing is known of them.";
     }

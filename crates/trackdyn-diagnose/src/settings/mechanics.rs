@@ -30,7 +30,7 @@ settings_group! {
         /// Shortest step in time for accuracy.
         min_step: f64 = 0.0025, "s", [1e-6, 1.0],
             "Bodies follow belts in milliseconds.";
-        /// Twist error from which a step is shortened.
+        /// Twist error that shortens a step.
         step_tolerance: f64 = 1e-3, "m/s", [1e-9, 1.0],
             "As good as steps of 2 ms.";
         /// Longest step beside shear laws.
@@ -39,19 +39,19 @@ settings_group! {
         /// Shortest step beside shear laws.
         min_sheared_step: f64 = 0.0125, "s", [1e-6, 1.0],
             "Errors with and without a law cancel.";
-        /// Twist error from which such a step is shortened.
+        /// Twist error that shortens such a step.
         sheared_step_tolerance: f64 = 5e-3, "m/s", [1e-9, 1.0],
             "Errors cancel.";
-        /// Departure from the stationary motion, in the largest speed, that counts as none there.
+        /// Departure from the stationary motion, over the largest speed, that counts as none.
         max_steady_departure: f64 = 0.01, "", [0.0, 0.1],
             "Laws change slips of a percent by a percent.";
-        /// Time of it after which the motion with a law is stationary, too.
+        /// Time of it after which motion with a law is stationary.
         min_steady_time: f64 = 0.2, "s", [0.0, 10.0],
             "Bodies follow belts in milliseconds.";
-        /// Difference step of a number that a motion in time depends on, in typical sizes.
+        /// Difference step for motions in time, in typical sizes.
         departure_difference: f64 = 0.01, "", [1e-6, 0.5],
             "Tables of stationary motion are good to a millionth.";
-        /// That step of a law of the shear stress.
+        /// That step of shear laws.
         sheared_difference: f64 = 0.03, "", [1e-6, 0.5],
             "Good to a percent of the law.";
         /// Change, in typical sizes, over which a motion in time serves.

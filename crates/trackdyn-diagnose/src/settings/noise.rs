@@ -14,7 +14,7 @@ settings_group! {
         /// Smallest deviations of a pose, and of the walk in a second.
         min_deviations: [f64; 2] = [3e-4, 1e-4], "m, rad", [0.0, 1.0],
             "Motions in time err by a third of that.",
-            "Lower: in poses without noise, arithmetic looks like physics; higher: power is lost.";
+            "Lower: arithmetic looks like physics; higher: power is lost.";
         /// Squared whitened residual from which a pose may be an outlier.
         min_outlier_square: f64 = 30.7, "", [3.0, 1e6],
             "Chance: 1e-6.",
@@ -35,7 +35,7 @@ settings_group! {
         friction_scales: [f64; 2] = [0.06, 0.2], "", [1e-3, 10.0],
             "As of the catalogue's laws.",
             "Friction of another scale passes for a walk.";
-        /// Factor by which a run's variance must fall for noise to be found anew.
+        /// Factor by which a run's variance must fall to renew its noise.
         min_variance_ratio: f64 = 1.3, "", [1.0, 1e6],
             "A clear fall.",
             "Higher: a walk hides physics.";
@@ -43,22 +43,22 @@ settings_group! {
         max_residual_scale: f64 = 1.1, "", [1.0, 1e6],
             "A tenth is tolerated.",
             "Higher: unknown physics makes false claims sure.";
-        /// Walk variance per second to start from, of the white one.
+        /// First walk variance per second, over the white one.
         start_walk: f64 = 0.03, "1/s", [1e-9, 1e3],
             "Less has no slope.",
             "Lower: no walk is found.";
-        /// Heading variance to start from, of the walk in yaw.
+        /// First heading variance, over the walk's in yaw.
         start_heading: f64 = 0.5, "", [1e-9, 1e3],
             "Less has no slope.",
             "Lower: no heading is found.";
-        /// Variance of the stamps to start from, as its share of the white one at the mean speed.
+        /// First variance by stamps at the mean speed, over the white one.
         start_stamp: f64 = 0.3, "", [1e-6, 1e6],
             "Less has no slope.",
-            "Lower: no error of the stamps is found.";
+            "Lower: no stamp error is found.";
         /// Gain of ln likelihood from which stamps have errors.
         min_stamp_gain: f64 = 7.6, "", [0.0, 1e6],
             "Chance: 1e-4.",
-            "Higher: jitter of stamps passes for waves of the ground.";
+            "Higher: jitter passes for waves of the ground.";
         /// Smallest walk, in the unit of start_walk.
         min_walk: f64 = 1e-5, "1/s", [0.0, 1.0],
             "Keeps the filter regular.";

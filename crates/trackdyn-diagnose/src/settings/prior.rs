@@ -29,11 +29,11 @@ settings_group! {
         shape_deviation: f64 = 1.0, "", [0.01, 1e3],
             "Its order is known.",
             "Lower: other shapes are missed.";
-        /// Deviations of the form of a law, as parts of what it does.
+        /// Deviations of a law's form, as parts of its effect.
         form_deviations: [f64; 3] = [0.1, 0.2, 0.4], "", [1e-3, 10.0],
             "Other laws of friction differ by 10 to 40 %.",
-            "Lower: second laws mend the form of the first; higher: they hide.";
-        /// Largest effect of another form that is not asked for.
+            "Lower: second laws mend the first; higher: they hide.";
+        /// Largest effect of another form that is ignored.
         min_form_effect: f64 = 0.5, "sd", [0.0, 100.0],
             "It shows nothing.",
             "Higher: forms of weak laws pass for physics.";

@@ -33,7 +33,7 @@ settings_group! {
         max_refitted_exchanges: usize = 2, "", [0.0, 100.0],
             "Each takes a simulation.",
             "Lower: look-alikes win.";
-        /// Part of what an effect is worth that one in its place must promise.
+        /// Part of an effect's gain that a substitute must promise.
         min_relative_gain: f64 = 0.8, "", [0.0, 1.0],
             "Room for the screen's error.",
             "Higher: the truth is passed over.";
@@ -57,20 +57,20 @@ settings_group! {
         near_start: f64 = 0.3, "", [0.01, 1.0],
             "Before most crests.",
             "Higher: it starts beyond them.";
-        /// Rise of twice the objective by more effects, from which on a fit starts anew at none.
+        /// Rise of twice the objective by added effects that restarts a fit at none.
         max_rise_of_nested: f64 = 0.1, "", [0.0, 100.0],
             "Rounding, and the end of a descent.",
             "Higher: effects are lost in worse minima.";
-        /// Rise of the objective, over the objective, up to which a hypothesis without an effect
-        /// gets beginnings of its own.
+        /// Relative rise of the objective up to which a hypothesis without an effect gets
+        /// beginnings of its own.
         max_rise_by_starts: f64 = 0.3, "", [0.0, 1e6],
             "Beginnings explain no more.",
             "Lower: what beginnings may explain is claimed; higher: slower.";
-        /// Mass over friction, against the vehicle file's, at which Newton's law is tried.
+        /// Mass over friction, against the file's, at which Newton's law is tried.
         newton_levels: [f64; 4] = [0.3, 1.0, 3.0, 9.0], "", [1e-3, 10.0],
             "Two decades.",
             "A robot on ice keeps a late clock.";
-        /// Offset of an ICR that the vehicle need not take over.
+        /// ICR offset that the vehicle need not take over.
         max_offset: f64 = 5e-3, "gauge", [1e-6, 1.0],
             "It is hardly noticed.",
             "Higher: sizes are off.";

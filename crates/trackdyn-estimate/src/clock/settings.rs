@@ -8,22 +8,22 @@ settings_group! {
         /// Smallest offset of the first search.
         earliest: f64 = -0.5, "s", [-1e4, 0.0],
             "Poses are seldom early.",
-            "Higher: clear peaks are found by later searches alone.";
+            "Higher: a later search finds early peaks.";
         /// Largest offset of the first search.
         latest: f64 = 1.0, "s", [0.0, 1e4],
             "Most filters answer within a second.",
-            "Lower: clear peaks are found by later searches alone.";
-        /// Size of the offsets that are searched where no clear peak lies between these two.
+            "Lower: a later search finds late peaks.";
+        /// Largest offset searched where these two enclose no clear peak.
         farthest: f64 = 60.0, "s", [0.0, 1e6],
             "Clocks without a server drift by a minute.",
             "Lower: such clocks are refused; higher: repeated driving looks like an offset.";
-        /// Size of the offsets of which a clear peak is taken where none of these is clear.
+        /// Largest offset of a clear peak that is taken where all of these are unclear.
         last: f64 = 600.0, "s", [0.0, 1e6],
             "Clocks set by hand.",
             "Lower: such clocks are refused.";
-        /// Poses that come more often are averaged.
+        /// Quicker poses are averaged.
         min_pose_interval: f64 = 0.05, "s", [0.0, 10.0],
-            "Between two of them a robot hardly turns.",
+            "A robot hardly turns between them.",
             "Lower: noise hides the turning.";
         /// Step of a search.
         step: f64 = 0.02, "s", [1e-3, 1.0],
@@ -40,26 +40,26 @@ settings_group! {
         min_correlation: f64 = 0.5, "", [0.0, 1.0],
             "Other pairs of signals reach it seldom.",
             "Lower: unlike columns get an offset; higher: noisy poses get none.";
-        /// Correlation of a peak beside which no other is looked for.
+        /// Correlation of a peak that ends the search.
         min_clear_correlation: f64 = 0.95, "", [0.0, 1.0],
             "Repeated driving seldom reaches it.",
             "Lower: a peak of chance is taken; higher: far ones are.";
-        /// Share of the pose intervals that such a peak uses.
+        /// Share of pose intervals that such a peak uses.
         min_clear_share: f64 = 0.5, "", [0.0, 1.0],
-            "Part of the poses may agree by chance.",
+            "Some poses may agree by chance.",
             "Lower: a short overlap sets the clock.";
-        /// Part of the variance beside the first peak that a far one may leave.
+        /// Variance that a far peak may leave, over that of the first.
         max_left_by_far_peak: f64 = 0.5, "", [0.0, 1.0],
             "Peaks of repeated driving are hardly higher.",
             "Higher: they are taken.";
-        /// Most pose intervals of a search over a wide range.
+        /// Most pose intervals of a wide search.
         max_intervals: usize = 2000, "", [20.0, 1e7],
             "A peak shows in a part of them.";
-        /// Reach of a step uphill from an end of the first search.
+        /// Farthest step uphill from an end of the first search.
         uphill_reach: f64 = 1.0, "s", [0.02, 1e3],
             "As far as the first search.",
             "Lower: it stops at a side peak.";
-        /// Smallest share of the pose intervals that a far offset uses.
+        /// Smallest share of pose intervals at a far offset.
         min_share: f64 = 0.3, "", [0.0, 1.0],
             "A late clock cuts off an end.",
             "Lower: a short overlap sets the clock.";

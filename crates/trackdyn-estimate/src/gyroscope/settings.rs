@@ -7,9 +7,9 @@ settings_group! {
     Settings {
         /// Fewest poses beside its readings.
         min_poses: usize = 60, "", [8.0, 1e6],
-            "Their noise is then known to a tenth.",
+            "Their noise is known to a tenth.",
             "Lower: its weight is a guess.";
-        /// Smallest share of the poses with readings around them.
+        /// Smallest share of poses with readings around them.
         min_share: f64 = 0.75, "", [0.0, 1.0],
             "Weights are of one kind of poses; ends of runs have none.",
             "Lower: corrected poses and others are mixed.";
@@ -29,11 +29,11 @@ settings_group! {
         max_error_ratio: f64 = 0.8, "", [0.0, 10.0],
             "A fifth less is worth it.",
             "Higher: a poor gyroscope corrects good poses.";
-        /// Largest departure of poses from it that have their yaw of it, in its own noise.
+        /// Departure, in its noise, up to which poses have their yaw from it.
         max_own: f64 = 0.5, "", [0.0, 10.0],
             "Other poses have noise of their own.",
             "Higher: it serves though it adds nothing.";
-        /// Smallest and largest yaw of the poses per yaw of the gyroscope.
+        /// Smallest and largest yaw of poses per yaw of the gyroscope.
         scales: [f64; 2] = [0.8, 1.25], "", [0.01, 100.0],
             "Tilts and scales err by less.",
             "Wider: wrong units and axes are taken.";
@@ -44,11 +44,11 @@ settings_group! {
         /// Step between lags that are tried, and longest step of the fit.
         lag_step: f64 = 0.1, "s", [1e-3, 10.0],
             "Robots turn for longer.";
-        /// Standard deviation of a scale before it is measured.
+        /// Prior deviation of the scale.
         scale_prior: f64 = 0.05, "", [1e-6, 10.0],
             "The tilt of a mount, and its error.",
             "Lower: a wrong scale stays; higher: short drives set it.";
-        /// Standard deviation of a lag about its start.
+        /// Prior deviation of the lag about its start.
         lag_prior: f64 = 0.2, "s", [1e-6, 100.0],
             "Without turns, the start stands.",
             "Higher: noise sets the lag.";
@@ -63,7 +63,7 @@ settings_group! {
         /// Most steps of the fit.
         max_steps: usize = 20, "", [1.0, 1e4],
             "A cap: it settles sooner.";
-        /// Smallest turning of poses that tell the fit, in the root mean square of all.
+        /// Smallest turning of poses in the fit, over the rms.
         min_turning: f64 = 0.3, "", [0.0, 10.0],
             "At rest, other noise rules.",
             "Lower: stand-still sets the noise.";

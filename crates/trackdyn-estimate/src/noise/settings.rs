@@ -18,15 +18,15 @@ settings_group! {
         max_turn: f64 = 1.0, "rad", [0.01, 3.0],
             "Noise is propagated for small turns.",
             "Higher: turns look like noise.";
-        /// Time after which a robot whose tracks stand does, also in late poses.
+        /// Time after the tracks have stopped until the robot stands, also in late poses.
         settling_time: f64 = 0.5, "s", [0.0, 1e3],
             "Delays of poses are shorter.",
             "Lower: stopping looks like noise.";
-        /// Largest difference of the speeds of both halves of a triple.
+        /// Largest speed difference of a triple's halves.
         max_speed_change: f64 = 2.0, "sd", [0.1, 100.0],
             "One even triple of 20 differs by more.",
             "Higher: driving looks like noise.";
-        /// Degrees of freedom of the heavy tails that tell errors of stamps.
+        /// Student's degrees of freedom in the test for stamp errors.
         tails: f64 = 5.0, "", [1.0, 1e6],
             "Outliers then count little.",
             "Higher: outliers look like late stamps.";
@@ -34,17 +34,17 @@ settings_group! {
         min_stamp_gain: f64 = MIN_GAIN, "", [0.0, 1e6],
             "Chance: 1e-4.",
             "Lower: white noise looks like late stamps.";
-        /// Most triples that are asked for errors of stamps.
+        /// Most triples tested for stamp errors.
         max_stamp_triples: usize = 4000, "", [30.0, 1e7],
             "They tell the noise to a percent.";
-        /// Longest time for which a measured track speed stays the same.
+        /// Longest time that a measured track speed stays unchanged.
         max_hold_time: f64 = 0.5, "s", [0.0, 1e3],
             "What is held longer is a command.",
-            "Higher: changes of commands look like noise.";
+            "Higher: commands look like noise.";
         /// Most readings for which it does.
         max_hold_readings: f64 = 10.0, "", [1.0, 1e6],
             "What is held longer is a command.",
-            "Higher: changes of commands look like noise.";
+            "Higher: commands look like noise.";
         /// Fewest triples of neighbours in a table of steady points.
         min_line_triples: usize = 10, "", [3.0, 1e6],
             "Tables are small.",

@@ -20,8 +20,8 @@ impl Effect for Bulldozing {
         id: "bulldozing",
         title: "Soil pushed aside by a slipping track",
         law: "τ_x = −μ_b p s_x/√(s_x² + (0.01 |s|)²), beside friction",
-        assumes: "The wall of soil grows with the local load and stands up at once; its size does \
-                  not depend on how fast it is pushed.",
+        assumes: "The wall of soil grows with the local load and stands up at once, however fast \
+                  it is pushed.",
         shows: "Like more friction across, but where the slip is mostly along the track it does \
                 not fade: the ICRs move outwards. It belongs to the class of constants.",
         breaks: &[],

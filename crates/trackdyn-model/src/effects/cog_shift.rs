@@ -15,8 +15,7 @@ impl Effect for CogShift {
         title: "Centre of gravity elsewhere",
         law: "(x_c, y_c) ← (x_c + Δx, y_c + Δy)",
         assumes: "A load that stays where it is. The mass does not change.",
-        shows: "Moves the constant ICRs: y with Δy, their middle with Δx, which is like a \
-                difference of friction between the sides.",
+        shows: "Moves the constant ICRs: y with Δy, their middle with Δx, as by friction-split.",
         breaks: &[Symmetry::Mirror],
         stages: &[Stage::Body],
         parameters: &[

@@ -16,8 +16,8 @@ impl Effect for DrivetrainLag {
         law: "T dV/dt = V_e − V",
         assumes: "First order, the same on both sides: elastic belts and gears behind the encoder, \
                   or speeds that were commanded and not measured.",
-        shows: "Nothing while the speeds are constant; where they change, a delay of T. Poses that \
-                come often can tell it from a clock offset, poses every few T cannot.",
+        shows: "Nothing at constant speeds; where they change, a delay of T. Frequent poses tell \
+                it from a clock offset, poses every few T do not.",
         breaks: &[Symmetry::Transient],
         stages: &[Stage::Drive],
         parameters: &[Parameter {

@@ -16,9 +16,8 @@ impl Effect for EncoderScale {
         title: "Belts faster or slower than the encoders show",
         law: "V_l = α_l V_e,l, V_r = α_r V_e,r",
         assumes: "Constant factors: a wrong sprocket radius, stretched belts, uneven wear.",
-        shows: "A straight command drives a curve where the factors differ, and the wrong distance \
-                where they do not; the part that both have in common is also a wrong scale of the \
-                map.",
+        shows: "Straight commands drive a curve where the factors differ, else a wrong distance. \
+                A wrong scale of the map looks like equal factors.",
         breaks: &[Symmetry::Manoeuvre, Symmetry::Mirror, Symmetry::Straight],
         stages: &[Stage::Drive],
         parameters: &[

@@ -26,8 +26,8 @@ impl Effect for ForceLaw {
         assumes: "A form and no mechanism: it describes what was seen, within what was driven. ℓ \
                   is the length of the contact, v and ω are those of the hull at the origin. \
                   Changes of speed and what sensors and encoders do have no term.",
-        shows: "Where its terms say. The diagnosis never names it as what is missing; it proposes \
-                terms where no effect of the catalogue explains what is left.",
+        shows: "Where its terms say. A diagnosis proposes terms of it where no effect explains \
+                what is left.",
         breaks: &[
             Symmetry::SpeedScale,
             Symmetry::Reversal,

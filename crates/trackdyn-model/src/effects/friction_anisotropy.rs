@@ -15,8 +15,7 @@ impl Effect for FrictionAnisotropy {
         id: "friction-anisotropy",
         title: "Another ratio of friction across to along the tracks",
         law: "μ_x ← k μ_x",
-        assumes: "Both sides alike. Slow driving on level ground depends on μ_x/μ_y alone, so it \
-                  does not matter which of the two changes.",
+        assumes: "Both sides alike. Slow driving on level ground depends on μ_x/μ_y alone.",
         shows: "The common distance of the ICRs from the middle. It belongs to the class of \
                 constants.",
         breaks: &[],

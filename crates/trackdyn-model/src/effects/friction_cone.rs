@@ -27,12 +27,11 @@ impl Effect for FrictionCone {
         title: "Friction on another cone, as simulators have it",
         law: "τ = −[μ] p ∂|u|_m/∂u, u = [μ/√(μ_x μ_y)]^a s/|s|, |u|_m = (|u_x|^m + |u_y|^m)^(1/m), \
               m = 2/(1 + b)",
-        assumes: "The cone's section is |τ_x/μ_x|^n + |τ_y/μ_y|^n = p^n with 1/n + 1/m = 1, in the \
-                  axes of the hull. With a = 1 the stress is where it dissipates most, as \
-                  simulators that minimise have it: MuJoCo's elliptic cone b = 0, its \
-                  pyramid towards b = −1 (a diamond), the box of ODE, Bullet and DART b = 1. \
-                  With a = 0 it points as \
-                  equation (22) says.",
+        assumes: "The cone's section is |τ_x/μ_x|^n + |τ_y/μ_y|^n = p^n with 1/n + 1/m = 1, in \
+                  the axes of the hull. With a = 1 the stress dissipates most, as in simulators \
+                  that minimise: MuJoCo's elliptic cone b = 0, its pyramid towards b = −1 (a \
+                  diamond), the box of ODE, Bullet and DART b = 1. With a = 0 it points as in eq. \
+                  (22).",
         shows: "ICRs move as by another ratio of friction, by an amount that depends on how far \
                 slip is from both axes. It belongs to the class of constants.",
         breaks: &[],
@@ -42,8 +41,7 @@ impl Effect for FrictionCone {
                 key: "normality",
                 symbol: "a",
                 unit: "1",
-                meaning: "how far friction goes from the slip's direction to that of most \
-                          dissipation",
+                meaning: "from the slip's direction, 0, to that of most dissipation, 1",
                 role: Role::Size { neutral: 0.0 },
                 range: [0.0, 1.0],
                 typical: 0.5,

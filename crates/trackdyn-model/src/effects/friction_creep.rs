@@ -17,12 +17,11 @@ impl Effect for FrictionCreep {
         id: "friction-creep",
         title: "Friction that is reached only above a slip speed, as soft contacts have it",
         law: "τ = −[μ] p (1 − (1 + |s|/(n v_c))^−n) s/|s|",
-        assumes: "Viscous creep at small slip, Coulomb friction at large slip; the same in both \
-                  directions. Friction is full soon above v_c where n is large, as 1 − \
-                  exp(−|s|/v_c) is, and comes slowly, as 1/|s|, where n = 1. Soft contacts of \
-                  simulators (slip1 and slip2 of ODE; solref, solimp and impratio of MuJoCo) rise \
-                  alike whatever their load: under an even load, this law with v_c = slip1 · μ N \
-                  of a contact.",
+        assumes: "Viscous creep at small slip, Coulomb friction at large slip; alike in both \
+                  directions. With large n friction is full soon above v_c, as 1 − exp(−|s|/v_c); \
+                  with n = 1 the rest comes slowly, as 1/|s|. Soft contacts of simulators (slip1 \
+                  and slip2 of ODE; solref, solimp and impratio of MuJoCo) rise alike whatever \
+                  their load: under an even load, this law with v_c = slip1 · μ N of a contact.",
         shows: "Slow turns see less friction near the ICRs, which move outwards; fast turns do \
                 not.",
         breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
@@ -32,7 +31,7 @@ impl Effect for FrictionCreep {
                 key: "speed_m_per_s",
                 symbol: "v_c",
                 unit: "m/s",
-                meaning: "slip speed at which friction would be full if it rose on as from rest",
+                meaning: "slip speed of full friction by its slope at rest",
                 role: Role::Size { neutral: 0.0 },
                 range: [1e-5, 2.0],
                 typical: 0.03,

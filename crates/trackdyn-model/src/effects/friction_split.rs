@@ -16,8 +16,8 @@ impl Effect for FrictionSplit {
         title: "Different friction under the two sides",
         law: "μ_left = (1 + δ) μ, μ_right = (1 − δ) μ",
         assumes: "Both directions of friction change by the same factor.",
-        shows: "Moves the constant ICRs like a lateral shift of the centre of gravity, from which \
-                ICRs alone cannot tell it.",
+        shows: "Moves the constant ICRs like a lateral cog-shift. ICRs alone cannot tell them \
+                apart.",
         breaks: &[Symmetry::Mirror],
         stages: &[Stage::Ground],
         parameters: &[Parameter {

@@ -17,10 +17,10 @@ impl Effect for PressureConcentration {
         title: "Pressure concentrated at the ends of a patch, or under rollers",
         law: "p ← p + κ p̄ (3 η² − 1)/2, η = ±1 at the ends of the patch, p̄ its mean pressure",
         assumes: "The second Legendre polynomial changes neither the load of a patch nor its \
-                  centre of pressure. κ > 0 stands for rollers at the ends of a stiff track, κ < 0 \
-                  for a belly or a soft tyre. Road wheels that carry alike are κ = 5/2 (12 r²/l² \
-                  − 1) to first order, with r² the mean of their y² about the middle; wheels with \
-                  these axles, in the vehicle file, are exact.",
+                  centre of pressure. κ > 0 stands for rollers at the ends of a stiff track, κ < \
+                  0 for a belly or a soft tyre. Road wheels that carry alike are κ = 5/2 (12 \
+                  r²/l² − 1) to first order, with r² the mean of their y² about the middle; axles \
+                  in the vehicle file are exact.",
         shows: "Ends count for more: the ICRs move outwards. It belongs to the class of constants.",
         breaks: &[],
         stages: &[Stage::Shear],

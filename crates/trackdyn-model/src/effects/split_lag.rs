@@ -16,8 +16,8 @@ impl Effect for SplitLag {
         law: "T_l = T + max(δ, 0), T_r = T + max(−δ, 0),  T dV/dt = V_e − V",
         assumes: "First order: a loose belt, a slower motor controller, messages of one side that \
                   come late.",
-        shows: "Nothing while the speeds are constant; where both change alike, the robot turns \
-                for the time δ.",
+        shows: "Nothing at constant speeds; where both change alike, the robot turns for the time \
+                δ.",
         breaks: &[Symmetry::Transient],
         stages: &[Stage::Drive],
         parameters: &[

@@ -19,8 +19,7 @@ impl Effect for TerrainPatch {
         law: "μ_x ← (1 + (√k − 1) s) μ_x, μ_y ← (1 + (1/√k − 1) s) μ_y, s the part of a side's \
               length where |p − p_0| < R",
         assumes: "A disc; each side has the mean friction of what lies under its middle line. \
-                  Where both sides are on it, the ratio alone counts; with one of them on it, how \
-                  both coefficients change does too.",
+                  With both sides on it the ratio alone counts, with one side each coefficient.",
         shows: "The ICRs jump at a place, the same each time the robot comes by.",
         breaks: &[Symmetry::Place],
         stages: &[Stage::Ground],

@@ -15,8 +15,8 @@ impl Effect for TimeOffset {
         title: "Stamps of the poses late against the encoders",
         law: "reported pose(t) = pose(t − τ)",
         assumes: "A constant delay.",
-        shows: "Nothing while the speeds are constant; where they change the robot seems to lag, \
-                as it would behind a slow drivetrain.",
+        shows: "Nothing at constant speeds. Where they change, the robot seems to lag as behind a \
+                slow drivetrain.",
         breaks: &[Symmetry::Transient],
         stages: &[Stage::Sense],
         parameters: &[Parameter {

@@ -19,8 +19,8 @@ impl Effect for YawInertia {
               body's axes",
         assumes: "Together with the centripetal force it is Newton's law in full. k = 1 where the \
                   vehicle's absolute friction is right.",
-        shows: "The robot follows changes of the track speeds late, the more so the faster they \
-                change; steady turns do not show it.",
+        shows: "The robot lags behind changes of the track speeds, most behind quick ones. Steady \
+                turns do not show it.",
         breaks: &[Symmetry::Transient],
         stages: &[Stage::Wrench],
         parameters: &[

@@ -16,9 +16,9 @@ The plain form of each law. The last column compares its size with that of the c
 const FAMILIES: &str = "
 ## Families of forms
 
-A [trial](../trials.md) draws one form of a law for each case, by a number that stands in its
-answers, so that no form can be learnt. All forms of a family break the same symmetries, which is
-measured, and their sizes mean the same.
+A [trial](../trials.md) draws a form for each case, by a number in its answers, so that no form can
+be learnt. All forms of a family are measured to break one set of symmetries; their sizes mean the
+same.
 `trackdyn simulate --ground independent --mechanism ID:form=NUMBER` drives on one.
 ";
 

@@ -17,7 +17,7 @@ impl Described for CogShift {
         id: "cog-shift",
         origin: Origin::Catalogue,
         law: "(x_c, y_c) + (x, y)",
-        size: "the same: the weight and the inertia move together",
+        size: "the same: weight and inertia move together",
         shares_size: true,
         family: None,
         breaks: &[Symmetry::Mirror],

@@ -16,7 +16,7 @@ impl Described for DriveBacklash {
         id: "drive-backlash",
         origin: Origin::Outside,
         law: "V = 0 while the encoder's way is inside the play, else V_shown",
-        size: "a worn final drive; nothing shows until the sense changes",
+        size: "a worn final drive; shows where the sense changes",
         shares_size: false,
         family: None,
         breaks: &[Symmetry::Transient],

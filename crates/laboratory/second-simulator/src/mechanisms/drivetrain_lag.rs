@@ -22,12 +22,12 @@ impl Described for DrivetrainLag {
         id: "drivetrain-lag",
         origin: Origin::Catalogue,
         law: "u' = (V_shown − u)/(T/2), V' = (u − V)/(T/2)",
-        size: "two lags of T/2 delay a ramp by T, as one lag of T does",
+        size: "both delay a ramp by T",
         shares_size: false,
         family: Some(Family {
             law: "one to three lags in a row, after a dead time of 0.1 to 0.6 T where there is one \
                   lag, in half of the others none",
-            size: "lags and dead time are T together: so much do they delay a ramp",
+            size: "lags and dead time together delay a ramp by T",
             shares_size: false,
         }),
         breaks: &[Symmetry::Transient],

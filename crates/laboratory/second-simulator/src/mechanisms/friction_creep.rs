@@ -19,8 +19,7 @@ impl Described for FrictionCreep {
         id: "friction-creep",
         origin: Origin::Catalogue,
         law: "μ (2/π) atan(π |s|/(2 v))",
-        size: "rises from rest with 1/v, as the catalogue's law does; at |s| = v it has reached 64 \
-               %",
+        size: "the same slope at rest, 1/v; 64 % at |s| = v",
         shares_size: false,
         family: Some(Family {
             law: "μ S(|s|), S of three to six random logistic steps in ln |s| from v/5 to 5 v, \

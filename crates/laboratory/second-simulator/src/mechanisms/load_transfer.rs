@@ -34,8 +34,7 @@ impl Described for LoadTransfer {
         law: "q' = (h (g_along − a)/g_normal − q)/0.06 s, a = ω × v_cog + k dv_cog/dt, k the part \
               of the mass that stands against changes of speed; the load acts at the centre of \
               gravity + q",
-        size: "in steady turns the same; the hull takes 0.06 s to lean, the period of a \
-               suspension of 2.7 Hz over 2π",
+        size: "in steady turns the same; the hull leans in 0.06 s, as on a suspension of 2.7 Hz",
         shares_size: false,
         family: Some(Family {
             law: "q'' = (2π f)² (h (g_along − a)/g_normal − q) − 2 ζ 2π f q', f from 1.2 to 4 Hz, \

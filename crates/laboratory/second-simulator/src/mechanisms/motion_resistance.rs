@@ -59,7 +59,7 @@ impl Described for MotionResistance {
         id: "motion-resistance",
         origin: Origin::Catalogue,
         law: "R = −c N V/√(V² + v₀²) on every shoe, v₀ = 2 mm/s",
-        size: "the same above 2 cm/s; below, it comes up smoothly",
+        size: "the same above 2 cm/s, smooth below",
         shares_size: true,
         family: Some(Family {
             law: "R = −c N (2 N_j/W)^q (1 + k |s|/√(s² + V²)) V/√(V² + v₀²), N_j the load of the \

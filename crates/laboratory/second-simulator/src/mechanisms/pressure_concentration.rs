@@ -26,8 +26,8 @@ impl Described for PressureConcentration {
         id: "pressure-concentration",
         origin: Origin::Catalogue,
         law: "k(η) = 1 − κ + κ c(η) (1 + cos 4πη), c = 2 for the end rollers, else 1",
-        size: "the second moment of pressure along y exceeds the even one by 0.43 κ/(1 + κ/4); a \
-               U-shape 1 + κ_U (3 η² − 1)/2 exceeds it by 0.4 κ_U",
+        size: "excess of the second moment of pressure along y: 0.43 κ/(1 + κ/4); 0.4 κ_U of a \
+               U-shape 1 + κ_U (3 η² − 1)/2",
         shares_size: false,
         family: Some(Family {
             law: "k(η) = 1 − σ + σ P(η), P of four to seven even prints exp(−((η − η_i)/w)²/2), w \

@@ -36,8 +36,7 @@ impl Described for ShearDisplacement {
         origin: Origin::Catalogue,
         law: "μ K_r (1 + (1/(K_r (1 − 1/e)) − 1) exp(1 − j/K_w)) (1 − exp(−j/K_w)), K_r = 0.85, \
               j the way slid",
-        size: "K_w = 3.1 K: then both this and 1 − exp(−j/K) of Janosi and Hanamoto are at 63 % \
-               where j = K",
+        size: "K_w = 3.1 K: at 63 % where j = K, as 1 − exp(−j/K) of Janosi and Hanamoto",
         shares_size: false,
         family: Some(Family {
             law: "μ k(j/K), k = (1 − exp(−(x/a)^p)) (1 + H exp(−ln²(x/b)/(2 w²))), p from 0.6 to \

@@ -17,8 +17,7 @@ impl Described for SideWind {
         origin: Origin::Outside,
         law: "F = F₀ (0.5 + 0.5 |cos β|) along the wind, β between the wind and the robot's x \
               axis, at 0.1 m before the middle",
-        size: "constant in the world like slope, but with the heading's second harmonic and a \
-               moment",
+        size: "a slope with the heading's second harmonic and a moment",
         shares_size: false,
         family: None,
         breaks: &[Symmetry::Reversal, Symmetry::Mirror, Symmetry::Heading],

@@ -22,7 +22,7 @@ impl Described for SoilPile {
         origin: Origin::Outside,
         law: "M = −c W L/2 h ω/√(ω² + ω₀²), h = 1 − exp(−|φ|/φ₀), φ the angle turned in one \
               sense, forgotten in L/2 of way ahead, ω₀ = 5 mrad/s",
-        size: "as resisting as a drag c of each side's load at its track, once the pile is there",
+        size: "once piled up, as a drag of c times each side's load at its track",
         shares_size: false,
         family: None,
         breaks: &[Symmetry::Manoeuvre, Symmetry::Transient],

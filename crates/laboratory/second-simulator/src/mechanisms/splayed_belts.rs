@@ -15,7 +15,7 @@ impl Described for SplayedBelts {
         id: "splayed-belts",
         origin: Origin::Outside,
         law: "belt velocity V (± sin δ, cos δ), δ = c V",
-        size: "3 degrees at 1 m/s; the belts walk outwards whichever way they run",
+        size: "3 degrees at 1 m/s; belts walk outwards either way",
         shares_size: false,
         family: None,
         breaks: &[Symmetry::SpeedScale, Symmetry::Reversal, Symmetry::Manoeuvre],

@@ -19,8 +19,7 @@ impl Described for SpringCable {
         id: "spring-cable",
         origin: Origin::Outside,
         law: "F = k (|d| − l) d/|d| at 0.3 m behind the middle, for |d| > l",
-        size: "a bungee: 2 m beyond its length it pulls with a twentieth \
-               of Auriga-alpha's weight",
+        size: "a bungee: stretched by 2 m it pulls a twentieth of Auriga-alpha's weight",
         shares_size: false,
         family: None,
         breaks: &[Symmetry::Reversal, Symmetry::Mirror, Symmetry::Heading, Symmetry::Place],

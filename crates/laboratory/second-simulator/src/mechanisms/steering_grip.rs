@@ -16,7 +16,7 @@ impl Described for SteeringGrip {
         id: "steering-grip",
         origin: Origin::Outside,
         law: "μ_y/(1 + c |V_r − V_l|)",
-        size: "depends on the commands and on no slip: a speed law of another argument",
+        size: "a speed law of the commands instead of the slip",
         shares_size: false,
         family: None,
         breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],

@@ -15,8 +15,7 @@ impl Described for StiffHull {
         id: "stiff-hull",
         origin: Origin::Outside,
         law: "N_j y_j = W y_p/2 with a torsion-stiff hull; a share of the way from y_j = y_p",
-        size: "acts only where the centre of gravity is off the middle both ways, and then \
-               statically",
+        size: "static; acts only where the centre of gravity is off the middle both ways",
         shares_size: false,
         family: None,
         breaks: &[],

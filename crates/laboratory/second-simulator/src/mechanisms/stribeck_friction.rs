@@ -26,13 +26,12 @@ impl Described for StribeckFriction {
         id: "stribeck-friction",
         origin: Origin::Catalogue,
         law: "μ (1 + a exp(−(|s|/v)²))",
-        size: "the excess is the same; half of it is lost at 0.83 v, where an exponential loses it \
-               at 0.69 v",
+        size: "the same excess; half of it is lost at 0.83 v, by an exponential at 0.69 v",
         shares_size: false,
         family: Some(Family {
             law: "μ (1 + a)^(1 − S(|s|)), S of three to six random logistic steps in ln |s| from \
                   v/8 to 8 v, moved so that half is lost at 0.69 v",
-            size: "the excess at rest, and the speed at which an exponential has lost half of it",
+            size: "the excess at rest, and where an exponential has lost half",
             shares_size: false,
         }),
         breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],

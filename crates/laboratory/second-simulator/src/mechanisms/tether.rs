@@ -29,7 +29,7 @@ impl Described for Tether {
         id: "tether",
         origin: Origin::Catalogue,
         law: "F = T d/√(|d|² + (0.1 m)²) at the middle of the robot, d from there to the anchor",
-        size: "the same beyond a metre; over the anchor the pull fades",
+        size: "the same beyond a metre; fades over the anchor",
         shares_size: true,
         family: Some(Family {
             law: "F = T (1 + k (|d| − d₀)/d₀) d/√(|d|² + c²), not below nothing, d₀ the anchor's \

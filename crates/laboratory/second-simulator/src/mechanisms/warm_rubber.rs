@@ -19,8 +19,8 @@ impl Described for WarmRubber {
         id: "warm-rubber",
         origin: Origin::Outside,
         law: "T' = P/(W · 1 m/s) / τ − T/τ per side, τ = 15 s; μ_x/(1 + a T)",
-        size: "history: the same command gives other ICRs after hard work than after rest, so a \
-               recording shows it as a drift; in the end it acts as slip speed does",
+        size: "history: hard work changes the ICRs of a command, seen as a drift; in the end it \
+               acts as slip speed does",
         shares_size: false,
         family: None,
         breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre, Symmetry::Transient],

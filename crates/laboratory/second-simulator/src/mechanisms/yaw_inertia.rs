@@ -15,8 +15,7 @@ impl Described for YawInertia {
         id: "yaw-inertia",
         origin: Origin::Catalogue,
         law: "k m v' and k m r² ω'",
-        size: "the same; here it is the mass of the equations of motion themselves. The way lost \
-               at a start grows with the square of the speed; steady turns do not change",
+        size: "the same: the mass in the equations of motion",
         shares_size: true,
         family: None,
         breaks: &[Symmetry::Transient],

@@ -138,6 +138,12 @@ fn markdown() -> String {
     text
 }
 
+/// Smallest and largest value of a parameter.
+fn range(parameter: &Parameter) -> String {
+    let [low, high] = parameter.range;
+    if low + high == 0.0 { format!("±{high}") } else { format!("{low} to {high}") }
+}
+
 /// The terms of a form; nothing of a mechanism.
 fn markdown_terms(card: &Card) -> String {
     let terms = card.terms();
@@ -150,14 +156,14 @@ fn markdown_terms(card: &Card) -> String {
     for term in terms {
         let keys: Vec<String> = keys(card, &term).iter().map(|key| format!("`{key}`")).collect();
         let parameter = &card.parameters[term.coefficients[0]];
-        let [low, high] = parameter.range;
         let breaks: String = term.breaks.iter().map(|symmetry| symmetry.letter()).collect();
         let _ = writeln!(
             text,
-            "| {} | {} | {breaks} | {} | {low} to {high} |",
+            "| {} | {} | {breaks} | {} | {} |",
             keys.join(", "),
             parameter.meaning.replace('|', "\\|"),
             parameter.typical,
+            range(parameter),
         );
     }
     text.push('\n');
@@ -171,15 +177,15 @@ fn markdown_card(card: &Card) -> String {
     let _ = writeln!(text, "**Shows.** {}\n", card.shows);
     text += &markdown_terms(card);
     for parameter in alone(card) {
-        let [low, high] = parameter.range;
         let unit = if parameter.unit == "1" { "" } else { parameter.unit };
         let _ = writeln!(
             text,
-            "- `{}` ({}, {}): {}; {low} to {high}, typically {} {unit}",
+            "- `{}` ({}, {}): {}; {}, typically {} {unit}",
             parameter.key,
             parameter.symbol,
             parameter.role.name(),
             parameter.meaning,
+            range(parameter),
             parameter.typical,
         );
         text.truncate(text.trim_end().len());

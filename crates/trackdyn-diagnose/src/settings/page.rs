@@ -20,7 +20,7 @@ max_p = 0.001
 deviation of the noise.
 
 *Accuracy* decides nothing by itself. Coarser values make minima jump and derivatives err, finer
-ones take longer.
+ones take longer. Each is explained at its field in `trackdyn_diagnose::settings`.
 ";
 
 /// All settings in words, as Markdown.
@@ -40,10 +40,9 @@ pub fn page() -> String {
             let _ = writeln!(page, "`{name}` | {default} | {meaning} {why} {wrong}");
         }
         if !accuracy.is_empty() {
-            page += "\n*Accuracy:*\n\n";
-        }
-        for entry in accuracy {
-            let _ = writeln!(page, "- `{}` {}: {}", name(entry), default(entry), entry.meaning);
+            let accuracy = accuracy.into_iter();
+            let accuracy = accuracy.map(|entry| format!("`{}` {}", name(entry), default(entry)));
+            let _ = writeln!(page, "\n*Accuracy:* {}.", accuracy.collect::<Vec<_>>().join("; "));
         }
     }
     page

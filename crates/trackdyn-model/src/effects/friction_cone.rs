@@ -41,7 +41,7 @@ impl Effect for FrictionCone {
                 key: "normality",
                 symbol: "a",
                 unit: "1",
-                meaning: "from the slip's direction, 0, to that of most dissipation, 1",
+                meaning: "part of the turn from the slip's direction to that of most dissipation",
                 role: Role::Size { neutral: 0.0 },
                 range: [0.0, 1.0],
                 typical: 0.5,

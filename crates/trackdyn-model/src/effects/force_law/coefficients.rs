@@ -60,9 +60,9 @@ coefficients! {
     "side" Side, Any, One, CONSTANT, "sideways, constant";
     "forward" Forward, Any, One, CONSTANT, "forward, constant";
     "turn" Turn, Any, One, CONSTANT, "turning, constant";
-    "side_by_direction" Side, Along, One, CONSTANT, "sideways, with the sign of V_l + V_r";
-    "forward_by_direction" Forward, Along, One, CONSTANT, "forward, with the sign of V_l + V_r";
-    "turn_by_direction" Turn, Along, One, CONSTANT, "turning, with the sign of V_l + V_r";
+    "side_by_direction" Side, Along, One, CONSTANT, "sideways × sign(V_l + V_r)";
+    "forward_by_direction" Forward, Along, One, CONSTANT, "forward × sign(V_l + V_r)";
+    "turn_by_direction" Turn, Along, One, CONSTANT, "turning × sign(V_l + V_r)";
     "side_by_both" Side, Both, One, CONSTANT, "sideways, with both signs";
     "forward_by_both" Forward, Both, One, CONSTANT, "forward, with both signs";
     "turn_by_both" Turn, Both, One, CONSTANT, "turning, with both signs";
@@ -97,54 +97,54 @@ coefficients! {
     "turn_cos_double_heading" Turn, Any, Cos(2), CONSTANT, "turning, cos 2ψ";
     "turn_sin_double_heading" Turn, Any, Sin(2), CONSTANT, "turning, sin 2ψ";
     "side_turning_cos_heading" Side, Turning, Cos(1), CONSTANT,
-        "sideways, cos ψ, with the sign of V_r − V_l";
+        "sideways, cos ψ × sign(V_r − V_l)";
     "side_turning_sin_heading" Side, Turning, Sin(1), CONSTANT,
-        "sideways, sin ψ, with the sign of V_r − V_l";
+        "sideways, sin ψ × sign(V_r − V_l)";
     "side_turning_cos_double_heading" Side, Turning, Cos(2), CONSTANT,
-        "sideways, cos 2ψ, with the sign of V_r − V_l";
+        "sideways, cos 2ψ × sign(V_r − V_l)";
     "side_turning_sin_double_heading" Side, Turning, Sin(2), CONSTANT,
-        "sideways, sin 2ψ, with the sign of V_r − V_l";
+        "sideways, sin 2ψ × sign(V_r − V_l)";
     "forward_turning_cos_heading" Forward, Turning, Cos(1), CONSTANT,
-        "forward, cos ψ, with the sign of V_r − V_l";
+        "forward, cos ψ × sign(V_r − V_l)";
     "forward_turning_sin_heading" Forward, Turning, Sin(1), CONSTANT,
-        "forward, sin ψ, with the sign of V_r − V_l";
+        "forward, sin ψ × sign(V_r − V_l)";
     "forward_turning_cos_double_heading" Forward, Turning, Cos(2), CONSTANT,
-        "forward, cos 2ψ, with the sign of V_r − V_l";
+        "forward, cos 2ψ × sign(V_r − V_l)";
     "forward_turning_sin_double_heading" Forward, Turning, Sin(2), CONSTANT,
-        "forward, sin 2ψ, with the sign of V_r − V_l";
+        "forward, sin 2ψ × sign(V_r − V_l)";
     "turn_turning_cos_heading" Turn, Turning, Cos(1), CONSTANT,
-        "turning, cos ψ, with the sign of V_r − V_l";
+        "turning, cos ψ × sign(V_r − V_l)";
     "turn_turning_sin_heading" Turn, Turning, Sin(1), CONSTANT,
-        "turning, sin ψ, with the sign of V_r − V_l";
+        "turning, sin ψ × sign(V_r − V_l)";
     "turn_turning_cos_double_heading" Turn, Turning, Cos(2), CONSTANT,
-        "turning, cos 2ψ, with the sign of V_r − V_l";
+        "turning, cos 2ψ × sign(V_r − V_l)";
     "turn_turning_sin_double_heading" Turn, Turning, Sin(2), CONSTANT,
-        "turning, sin 2ψ, with the sign of V_r − V_l";
+        "turning, sin 2ψ × sign(V_r − V_l)";
     "forward_direction_cos_heading" Forward, Along, Cos(1), CONSTANT,
-        "forward, cos ψ, with the sign of V_l + V_r";
+        "forward, cos ψ × sign(V_l + V_r)";
     "forward_direction_sin_heading" Forward, Along, Sin(1), CONSTANT,
-        "forward, sin ψ, with the sign of V_l + V_r";
+        "forward, sin ψ × sign(V_l + V_r)";
     "forward_direction_cos_double_heading" Forward, Along, Cos(2), CONSTANT,
-        "forward, cos 2ψ, with the sign of V_l + V_r";
+        "forward, cos 2ψ × sign(V_l + V_r)";
     "forward_direction_sin_double_heading" Forward, Along, Sin(2), CONSTANT,
-        "forward, sin 2ψ, with the sign of V_l + V_r";
+        "forward, sin 2ψ × sign(V_l + V_r)";
     "world_x" World([1, 0]), Any, One, CONSTANT, "along the x axis of the world, constant";
     "world_y" World([0, 1]), Any, One, CONSTANT, "along the y axis of the world, constant";
     "spring" Spring, Any, One, PLACE, "towards the origin of the world, per ℓ of distance";
     "side_turning_x" Side, Turning, X, PLACE,
-        "sideways, ∝ place along x over ℓ, with the sign of V_r − V_l";
+        "sideways, ∝ x/ℓ × sign(V_r − V_l)";
     "side_turning_y" Side, Turning, Y, PLACE,
-        "sideways, ∝ place along y over ℓ, with the sign of V_r − V_l";
+        "sideways, ∝ y/ℓ × sign(V_r − V_l)";
     "turn_turning_x" Turn, Turning, X, PLACE,
-        "turning, ∝ place along x over ℓ, with the sign of V_r − V_l";
+        "turning, ∝ x/ℓ × sign(V_r − V_l)";
     "turn_turning_y" Turn, Turning, Y, PLACE,
-        "turning, ∝ place along y over ℓ, with the sign of V_r − V_l";
+        "turning, ∝ y/ℓ × sign(V_r − V_l)";
     "forward_direction_x" Forward, Along, X, PLACE,
-        "forward, ∝ place along x over ℓ, with the sign of V_l + V_r";
+        "forward, ∝ x/ℓ × sign(V_l + V_r)";
     "forward_direction_y" Forward, Along, Y, PLACE,
-        "forward, ∝ place along y over ℓ, with the sign of V_l + V_r";
-    "side_turning_time" Side, Turning, Time, TIME, "sideways, ∝ t/T, with the sign of V_r − V_l";
-    "turn_turning_time" Turn, Turning, Time, TIME, "turning, ∝ t/T, with the sign of V_r − V_l";
+        "forward, ∝ y/ℓ × sign(V_l + V_r)";
+    "side_turning_time" Side, Turning, Time, TIME, "sideways, ∝ t/T × sign(V_r − V_l)";
+    "turn_turning_time" Turn, Turning, Time, TIME, "turning, ∝ t/T × sign(V_r − V_l)";
     "forward_direction_time" Forward, Along, Time, TIME,
-        "forward, ∝ t/T, with the sign of V_l + V_r";
+        "forward, ∝ t/T × sign(V_l + V_r)";
 }

@@ -17,7 +17,7 @@ max_p = 0.001
 ```
 
 `diagnosis.toml` records it in `[settings]`. Units: gauge is that of the vehicle, sd a standard
-deviation of the noise.
+deviation of the noise. When wrong: ↓ a lower value, ↑ a higher one.
 
 *Accuracy* decides nothing by itself. Coarser values make minima jump and derivatives err, finer
 ones take longer. Each is explained at its field in `trackdyn_diagnose::settings`.
@@ -35,7 +35,7 @@ pub fn page() -> String {
         }
         for entry in decides {
             let Entry { meaning, why, .. } = entry;
-            let wrong = entry.if_wrong.unwrap_or_default();
+            let wrong = with_arrows(entry.if_wrong.unwrap_or_default());
             let (name, default) = (name(entry), default(entry));
             let _ = writeln!(page, "`{name}` | {default} | {meaning} {why} {wrong}");
         }
@@ -46,6 +46,12 @@ pub fn page() -> String {
         }
     }
     page
+}
+
+/// What happens when a setting is wrong, with arrows for the words "lower" and "higher".
+fn with_arrows(if_wrong: &str) -> String {
+    let words = [("Lower: ", "↓ "), ("lower: ", "↓ "), ("Higher: ", "↑ "), ("higher: ", "↑ ")];
+    words.into_iter().fold(if_wrong.to_owned(), |text, (word, arrow)| text.replace(word, arrow))
 }
 
 /// The name within the group.

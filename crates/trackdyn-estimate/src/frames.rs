@@ -14,15 +14,15 @@ settings_group! {
         /// Fewest runs that follow one another.
         min_pairs: usize = 5, "", [1.0, 1e6],
             "Fewer begin near one pose by chance.",
-            "Lower: places of one world are thrown away.";
+            "Lower: one world's places are lost.";
         /// Largest spread of first poses over that of last ones.
         max_spread: f64 = 0.25, "", [0.0, 1.0],
             "First poses then lie together.",
-            "Higher: places of one world are thrown away; lower: those of several are mixed.";
+            "Higher: one world's places are lost; lower: several are mixed.";
         /// Largest pause between runs, over the way back at the usual speed.
         max_pause: f64 = 2.0, "", [0.0, 100.0],
             "Nobody drives back in less.",
-            "Higher: robots that are driven back lose their world.";
+            "Higher: robots driven back lose their world.";
     }
 }
 

@@ -18,7 +18,7 @@ use trackdyn_recording::{Recording, Run, UncheckedRun};
 settings_group! {
     /// How the times at which samples were due are found from stamps that jitter.
     Settings {
-        /// Fewest neighbours on each side that tell a time; then twice as many, and so on.
+        /// Fewest neighbours on each side that tell a time, then twice as many.
         min_neighbours: usize = 5, "", [1.0, 1e6],
             "Fewer share their jitter.",
             "Lower: jitter stays; higher: a wandering clock is not followed.";

@@ -11,7 +11,7 @@ settings_group! {
             "The screen promises wrong sizes.";
         /// Relative change of the base's motion below which signatures serve again.
         max_base_change: f64 = 0.05, "", [0.0, 1.0],
-            "They change by as little, and sizes are refitted.",
+            "They change by as little.",
             "Higher: the screen is of another robot.";
         /// Typical sizes at which shear laws are taken.
         shear_sizes: [f64; 3] = [1.0, 0.2, 0.05], "", [1e-3, 10.0],
@@ -29,9 +29,9 @@ settings_group! {
         places: [f64; 5] = [-3.0, -1.0, 0.0, 1.0, 3.0], "", [-100.0, 100.0],
             "Anchors lie beside areas too.",
             "Other anchors look like slopes.";
-        /// Times of a change, in half the time that was driven, from its middle.
+        /// Times of a change, in half the driven time, from its middle.
         times: [f64; 6] = [-1.1, -0.66, -0.22, 0.22, 0.66, 1.1], "", [-10.0, 10.0],
-            "A quarter of a recording apart, and before and after it.",
+            "Even steps; the outer ones lie before and after.",
             "Short changes are missed.";
         /// Most places of an extent.
         max_places: usize = 40, "", [1.0, 1e5],

@@ -12,6 +12,6 @@ settings_group! {
         /// Typical difference of constant ICRs, by which one is measured.
         icr_difference: f64 = 0.1, "gauge", [1e-3, 10.0],
             "Simulators and robots differ so.",
-            "Lower: small differences count more than those of effects.";
+            "Lower: small differences outweigh effects.";
     }
 }

@@ -5,9 +5,9 @@ use trackdyn_core::settings_group;
 settings_group! {
     /// How drift of dead reckoning is measured.
     Drift {
-        /// Lengths of the pieces, longest first; the first with enough pieces counts.
+        /// Lengths of the pieces; the first with enough pieces counts.
         distances: [f64; 7] = [100.0, 50.0, 20.0, 10.0, 5.0, 2.0, 1.0], "m", [1e-3, 1e6],
-            "Errors of heading show only over a distance.",
+            "Errors of heading show over a distance.",
             "Shorter: errors of heading hide.";
         /// Angles of the pieces, likewise.
         angles: [f64; 3] = [1.0, 0.5, 0.25], "turns", [1e-3, 1e3],

@@ -14,7 +14,7 @@ settings_group! {
         min_points: usize = 30, "", [3.0, 1e6],
             "Ten for each ICR coordinate.",
             "Lower: their scatter is hardly known.";
-        /// Fewest runs that are a block each; fewer are cut into twice as many pieces.
+        /// Fewest runs that are blocks; fewer are cut into twice as many pieces.
         min_whole_runs: usize = Blocks::MIN_WHOLE_RUNS, "", [2.0, 1e4],
             "Fewer blocks give a poor variance.",
             "Lower: chance passes tests; higher: pieces pass for independent.";
@@ -24,7 +24,7 @@ settings_group! {
             "Higher: dependent neighbours pass for independent.";
         /// Farthest that a fitted clock goes beyond the recording's offset.
         clock_margin: f64 = 0.15, "s", [0.0, 10.0],
-            "Room for a clock found without a model.",
+            "It was found without a model.",
             "Lower: late clocks end at the limit.";
         /// Largest coordinate of a pose.
         max_coordinate: f64 = 1000.0, "m", [1.0, 1e9],
@@ -37,7 +37,7 @@ settings_group! {
         /// Quicker poses are averaged; between slower ones a gyroscope tells yaw.
         min_pose_interval: f64 = 0.1, "s", [0.0, 10.0],
             "Noise of quicker poses is seldom white.",
-            "Lower: slow, and a filter's error counts often; higher: quick changes vanish.";
+            "Lower: slow, and filter errors count often; higher: quick changes vanish.";
         /// ICR distance assumed for a robot that never spins.
         gap_without_spins: f64 = 1.5, "gauge", [0.5, 20.0],
             "Usual on hard ground.",
@@ -58,7 +58,7 @@ settings_group! {
         max_rise_by_cleaning: f64 = 4.0, "", [0.0, 1e6],
             "Two standard deviations.",
             "Lower: jitter looks like a lag.";
-        /// Prior deviation of a run's first motion from stationary, over the fastest speed.
+        /// Prior deviation of a run's first motion, over the fastest speed.
         start_deviation: f64 = 0.5, "", [1e-3, 10.0],
             "A log may begin in a slide.",
             "Lower: earlier slides look like lags; higher: beginnings tell less.";
@@ -68,8 +68,8 @@ settings_group! {
             "Higher: runs cut in a slide pass for stationary.";
         /// Steps to the first motion of each run.
         start_rounds: usize = 8, "", [1.0, 100.0],
-            "A step that does not help is halved.",
-            "Lower: far slides are not found.";
+            "Steps that do not help are halved.",
+            "Lower: far slides are missed.";
         /// Alternating fits of first motions and of the rest.
         start_repeats: usize = 6, "", [1.0, 100.0],
             "Each depends on the other.";

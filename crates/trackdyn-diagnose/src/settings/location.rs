@@ -32,7 +32,7 @@ settings_group! {
         /// Part of the largest speed from which a track runs.
         min_running_speed: f64 = 0.02, "", [0.0, 1.0],
             "Above the flicker of standing encoders.",
-            "Lower: flicker counts as turning round.";
+            "Lower: flicker counts as turning.";
         /// Times in which the past is forgotten.
         memories: [f64; 2] = [3.0, 12.0], "s", [1e-3, 1e6],
             "Sloshing tanks; warm or worked ground.",

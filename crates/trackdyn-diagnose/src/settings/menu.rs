@@ -24,7 +24,7 @@ settings_group! {
             "Narrower: laws of speed look alike.";
         /// Ratios of these two.
         tight_ratios: [f64; 2] = [-0.4, 0.1], "", [-0.99, 0.99],
-            "On both sides of a track that stands.",
+            "Either side of a standing track.",
             "Zero: the direction of its resistance is open.";
         /// Speeds of straight runs.
         straight_shares: [f64; 2] = [0.5, 1.0], "", [0.01, 1.0],
@@ -34,9 +34,9 @@ settings_group! {
         speed_steps: [f64; 2] = [0.2, 0.8], "", [0.01, 1.0],
             "Wide, and never at rest.",
             "Narrower: inertia hardly shows.";
-        /// Slow and fast speed of steps of a spin.
+        /// Slow and fast speed of spins in steps.
         spin_steps: [f64; 2] = [0.15, 0.6], "", [0.01, 1.0],
-            "Spins at full speed tip high robots.",
+            "Full speed tips high robots.",
             "Narrower: inertia hardly shows.";
         /// Speed of spins that turn back.
         reversal_share: f64 = 0.4, "", [0.01, 1.0],
@@ -66,7 +66,7 @@ settings_group! {
         square_share: f64 = 0.7, "", [0.01, 1.0],
             "Sides are then metres long.",
             "Lower: places look alike.";
-        /// Fastest speed of turns on the spot between these arcs and sides.
+        /// Fastest turns on the spot between these.
         corner_share: f64 = 0.4, "", [0.01, 1.0],
             "A corner is no test.",
             "Higher: corners shake the robot.";

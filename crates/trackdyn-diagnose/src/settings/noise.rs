@@ -11,15 +11,15 @@ settings_group! {
         t_degrees: f64 = 5.0, "", [1.0, 1e6],
             "Outliers then count little.",
             "Higher: outliers raise the noise.";
-        /// Smallest deviations of a pose, and of the walk in a second.
+        /// Smallest deviations of a pose, and of a second's walk.
         min_deviations: [f64; 2] = [3e-4, 1e-4], "m, rad", [0.0, 1.0],
-            "Motions in time err by a third of that.",
+            "Motions in time err by a third.",
             "Lower: arithmetic looks like physics; higher: power is lost.";
         /// Squared whitened residual from which a pose may be an outlier.
         min_outlier_square: f64 = 30.7, "", [3.0, 1e6],
             "Chance: 1e-6.",
             "Lower: physics is thrown away; higher: bad poses stay.";
-        /// Square of both samples beside it together, up to which it is one.
+        /// Joint square of both samples beside it up to which it is one.
         max_pair_square: f64 = 11.3, "", [0.0, 1e6],
             "Chance: 1 %.",
             "Higher: slip is thrown away.";

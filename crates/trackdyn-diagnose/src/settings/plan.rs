@@ -21,7 +21,7 @@ settings_group! {
         max_mimicked_residual: f64 = 3.0, "sd", [0.1, 100.0],
             "Below Huber's threshold.",
             "Higher: differences count as outliers.";
-        /// Distances of the ICRs that a slow spin may have.
+        /// ICR distances that a slow spin may have.
         gap_limits: [f64; 2] = [0.2, 20.0], "gauge", [1e-3, 1e3],
             "Robots lie between.",
             "Vehicles that cannot turn get plans.";

@@ -17,10 +17,10 @@ settings_group! {
         extent_place_deviation: f64 = 1.0, "", [0.1, 1e3],
             "It acts where the robot was.",
             "Lower: patches at the edge are missed.";
-        /// Deviation of a time, in half lengths of the recording.
+        /// Deviation of a time, in half the recording.
         time_deviation: f64 = 1.0, "", [0.1, 1e3],
             "It lies within the recording.",
-            "Lower: changes near the ends are missed.";
+            "Lower: late and early changes are missed.";
         /// Smallest half width of an area.
         min_area: f64 = 1.0, "m", [1e-3, 1e3],
             "Robots may spin on the spot.",

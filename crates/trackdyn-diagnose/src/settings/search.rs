@@ -59,13 +59,13 @@ settings_group! {
             "Higher: it starts beyond them.";
         /// Rise of twice the objective by added effects that restarts a fit at none.
         max_rise_of_nested: f64 = 0.1, "", [0.0, 100.0],
-            "Rounding, and the end of a descent.",
+            "Rounding, and the descent's end.",
             "Higher: effects are lost in worse minima.";
-        /// Relative rise of the objective up to which a hypothesis without an effect gets
-        /// beginnings of its own.
+        /// Relative rise of the objective up to which a hypothesis without an effect gets own
+        /// beginnings.
         max_rise_by_starts: f64 = 0.3, "", [0.0, 1e6],
             "Beginnings explain no more.",
-            "Lower: what beginnings may explain is claimed; higher: slower.";
+            "Lower: beginnings are claimed as effects; higher: slower.";
         /// Mass over friction, against the file's, at which Newton's law is tried.
         newton_levels: [f64; 4] = [0.3, 1.0, 3.0, 9.0], "", [1e-3, 10.0],
             "Two decades.",
@@ -77,7 +77,7 @@ settings_group! {
         /// Most rounds in which it takes one over.
         recalibrations: usize = 2, "", [0.0, 100.0],
             "A cap: the offset ends them.";
-        /// Fall of twice the misfit for another meaning of constant ICRs.
+        /// Fall of twice the misfit that gives constant ICRs another meaning.
         min_fall_of_meaning: f64 = 4.0, "", [0.0, 1e6],
             "Two standard deviations.",
             "Higher: a wrong centre of gravity stays.";

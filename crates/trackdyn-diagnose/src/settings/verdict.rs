@@ -20,7 +20,7 @@ settings_group! {
         /// Fewest blocks of time that show it, where p refuses it.
         min_blocks: f64 = 3.0, "", [0.0, 1e3],
             "Two may meet one event.",
-            "It tells what was met once from chance.";
+            "Lower: what was met once passes for chance.";
         /// Smallest share of resampled recordings that name the same.
         min_stability: f64 = 0.9, "", [0.0, 1.0],
             "Other drives would too.",

@@ -16,8 +16,8 @@ settings_group! {
         /// Largest offset searched where these two enclose no clear peak.
         farthest: f64 = 60.0, "s", [0.0, 1e6],
             "Clocks without a server drift by a minute.",
-            "Lower: such clocks are refused; higher: repeated driving looks like an offset.";
-        /// Largest offset of a clear peak that is taken where all of these are unclear.
+            "Lower: these are refused; higher: repeated driving looks like an offset.";
+        /// Largest offset of a clear peak where all of these are unclear.
         last: f64 = 600.0, "s", [0.0, 1e6],
             "Clocks set by hand.",
             "Lower: such clocks are refused.";

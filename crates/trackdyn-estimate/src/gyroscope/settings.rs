@@ -11,8 +11,8 @@ settings_group! {
             "Lower: its weight is a guess.";
         /// Smallest share of poses with readings around them.
         min_share: f64 = 0.75, "", [0.0, 1.0],
-            "Weights are of one kind of poses; ends of runs have none.",
-            "Lower: corrected poses and others are mixed.";
+            "Ends of runs have none.",
+            "Lower: corrected and other poses are mixed.";
         /// Fewest poses in a row that are smoothed.
         min_row: usize = 8, "", [3.0, 1e4],
             "A row tells its own level.",
@@ -31,8 +31,8 @@ settings_group! {
             "Higher: a poor gyroscope corrects good poses.";
         /// Departure, in its noise, up to which poses have their yaw from it.
         max_own: f64 = 0.5, "", [0.0, 10.0],
-            "Other poses have noise of their own.",
-            "Higher: it serves though it adds nothing.";
+            "Other poses have their own noise.",
+            "Higher: it adds nothing.";
         /// Smallest and largest yaw of poses per yaw of the gyroscope.
         scales: [f64; 2] = [0.8, 1.25], "", [0.01, 100.0],
             "Tilts and scales err by less.",
@@ -54,9 +54,9 @@ settings_group! {
             "Higher: noise sets the lag.";
         /// Time between mean yaws whose turns tell the scale.
         scale_interval: f64 = 2.0, "s", [0.01, 1e3],
-            "On real drives it is steady from 2 s on.",
-            "Lower: filters of the poses make it too small.";
-        /// Time for which runs share one bias.
+            "Real drives show one scale from 2 s on.",
+            "Lower: filtered poses make it too small.";
+        /// Time for which runs share a bias.
         max_session: f64 = 600.0, "s", [0.0, 1e6],
             "A gyroscope keeps it for minutes.",
             "Higher: a drifting bias turns late runs.";

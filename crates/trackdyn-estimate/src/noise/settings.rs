@@ -18,7 +18,7 @@ settings_group! {
         max_turn: f64 = 1.0, "rad", [0.01, 3.0],
             "Noise is propagated for small turns.",
             "Higher: turns look like noise.";
-        /// Time after the tracks have stopped until the robot stands, also in late poses.
+        /// Time from the tracks' stop until poses stand still.
         settling_time: f64 = 0.5, "s", [0.0, 1e3],
             "Delays of poses are shorter.",
             "Lower: stopping looks like noise.";
@@ -39,11 +39,11 @@ settings_group! {
             "They tell the noise to a percent.";
         /// Longest time that a measured track speed stays unchanged.
         max_hold_time: f64 = 0.5, "s", [0.0, 1e3],
-            "What is held longer is a command.",
+            "What stays longer is a command.",
             "Higher: commands look like noise.";
         /// Most readings for which it does.
         max_hold_readings: f64 = 10.0, "", [1.0, 1e6],
-            "What is held longer is a command.",
+            "What stays longer is a command.",
             "Higher: commands look like noise.";
         /// Fewest triples of neighbours in a table of steady points.
         min_line_triples: usize = 10, "", [3.0, 1e6],

@@ -23,10 +23,8 @@ same.
 ";
 
 const SUM: &str = "
-S is a sum of logistic steps: `S(x) = Σ h_i/(1 + (c_i/x)^(1/w_i))` with random heights h_i, Σ h_i =
-1, random places c_i, and widths w_i from 0.3 to 1.1.
-
-The other effects of the catalogue have one form.
+S is a sum of three to six logistic steps, `S(x) = Σ h_i/(1 + (c_i/x)^(1/w_i))`, with random heights
+h_i, Σ h_i = 1, places c_i random in ln x between the limits given, and widths w_i from 0.3 to 1.1.
 ";
 
 const OUTSIDE: &str = "

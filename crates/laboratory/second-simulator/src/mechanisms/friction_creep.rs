@@ -22,8 +22,7 @@ impl Described for FrictionCreep {
         size: "the same slope at rest, 1/v; 64 % at |s| = v",
         shares_size: false,
         family: Some(Family {
-            law: "μ S(|s|), S of three to six random logistic steps in ln |s| from v/5 to 5 v, \
-                  moved so that it is 1 − 1/e at v",
+            law: "μ S(|s|), S from v/5 to 5 v, moved so that it is 1 − 1/e at v",
             size: "63 % at |s| = v, as 1 − exp(−|s|/v)",
             shares_size: false,
         }),

@@ -22,7 +22,7 @@ impl Described for ResistanceSplit {
         shares_size: true,
         family: Some(Family {
             law: "c_left = +Δc/2, c_right = −Δc/2, as motion-resistance",
-            size: "the same straight ahead; where the tracks slip they sink in deeper",
+            size: "as motion-resistance",
             shares_size: false,
         }),
         breaks: &[Symmetry::Manoeuvre, Symmetry::Mirror],

@@ -29,8 +29,7 @@ impl Described for StribeckFriction {
         size: "the same excess; half of it is lost at 0.83 v, by an exponential at 0.69 v",
         shares_size: false,
         family: Some(Family {
-            law: "μ (1 + a)^(1 − S(|s|)), S of three to six random logistic steps in ln |s| from \
-                  v/8 to 8 v, moved so that half is lost at 0.69 v",
+            law: "μ (1 + a)^(1 − S(|s|)), S from v/8 to 8 v, moved so that half is lost at 0.69 v",
             size: "the excess at rest, and where an exponential has lost half",
             shares_size: false,
         }),

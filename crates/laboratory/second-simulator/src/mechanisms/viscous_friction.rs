@@ -29,9 +29,8 @@ impl Described for ViscousFriction {
         size: "equal to 1 + c |s| at 0.3 m/s; more below, less above",
         shares_size: false,
         family: Some(Family {
-            law: "μ (1 + c v₀)^(S(|s|)/S(v₀)), S of three to six random logistic steps in ln |s| \
-                  from 0.05 to 1.5 m/s with S(v₀) from 0.3 to 0.7 of its end; or 1 + c v₀ \
-                  (|s|/v₀)^p, p from 0.4 to 0.75 or 1.3 to 1.7",
+            law: "μ (1 + c v₀)^(S(|s|)/S(v₀)), S from 0.05 to 1.5 m/s with S(v₀) from 0.3 to 0.7 \
+                  of its end; or 1 + c v₀ (|s|/v₀)^p, p from 0.4 to 0.75 or 1.3 to 1.7",
             size: "equal to 1 + c |s| at v₀ = 0.3 m/s",
             shares_size: false,
         }),

@@ -1,10 +1,17 @@
-//! Sources and manifests are readable: lines are short, and a comment stands alone.
+//! Sources, manifests and pages are readable: lines are short, comments stand alone, and pages are
+//! not too long.
 
 use super::crates::files_below;
 use std::path::Path;
 
 /// Largest number of characters in a line.
 const MAX_COLUMNS: usize = 100;
+
+/// Largest number of words of README.md.
+const MAX_README_WORDS: usize = 1_500;
+
+/// Largest number of words of all pages below docs but the log of trials.
+const MAX_DOCS_WORDS: usize = 35_000;
 
 /// What is wrong with the lines of a source, with their numbers.
 fn faults(text: &str) -> Vec<(usize, &'static str)> {
@@ -56,4 +63,34 @@ fn faults_are_seen() {
     );
     let lines: Vec<usize> = faults(&text).into_iter().map(|(line, _)| line).collect();
     assert_eq!(lines, [3, 4, 7, 9]);
+}
+
+/// Number of words: what stands between spaces and has a letter or a digit.
+fn count_words(text: &str) -> usize {
+    let is_word = |token: &&str| token.chars().any(char::is_alphanumeric);
+    text.split_whitespace().filter(is_word).count()
+}
+
+#[test]
+fn pages_are_not_too_long() {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let readme = std::fs::read_to_string(top.join("README.md")).expect("a text");
+    let words = count_words(&readme);
+    assert!(words <= MAX_README_WORDS, "README.md has {words} words");
+    let is_page = |path: &Path| path.extension().is_some_and(|ending| ending == "md");
+    let mut pages = files_below(&top.join("docs"), &is_page);
+    pages.retain(|(path, _)| !path.starts_with("trials/log"));
+    assert!(pages.len() > 25, "only {} pages were seen", pages.len());
+    let mut counts: Vec<(usize, String)> = pages
+        .into_iter()
+        .map(|(path, text)| (count_words(&text), path.display().to_string()))
+        .collect();
+    counts.sort_unstable();
+    let words: usize = counts.iter().map(|(words, _)| words).sum();
+    assert!(words <= MAX_DOCS_WORDS, "docs has {words} words: {counts:#?}");
+}
+
+#[test]
+fn words_are_counted() {
+    assert_eq!(count_words("| x_l \u{2212} 0.37 m |\n\n\u{2014} *one*, `two-three` ## 4\n"), 6);
 }

@@ -127,6 +127,7 @@ fn a_gyroscope_shows_what_coarse_headings_hide() {
 
 /// A pose a second tells little of what takes a tenth of one. A gyroscope saw it.
 #[test]
+#[ignore = "half a minute: .ci/nightly runs it"]
 fn a_gyroscope_shows_what_lies_between_poses() {
     const LAG: f64 = 0.1;
     let concealed = format!("split-lag:left_s={LAG}");
@@ -192,6 +193,7 @@ fn is_named(concealed: &str) {
 
 /// Instruments that few robots have wrong are looked for, and named with their sizes.
 #[test]
+#[ignore = "half a minute: .ci/nightly runs it"]
 fn a_side_that_follows_late_or_turns_less_backward_is_named() {
     for (concealed, size) in
         [("backward-gain:left=0.96,right=1", 0.96), ("split-lag:left_s=0.1", 0.1)]
@@ -210,6 +212,7 @@ fn a_side_that_follows_late_or_turns_less_backward_is_named() {
 
 /// Runs on grass among runs on asphalt, or rain that begins.
 #[test]
+#[ignore = "half a minute: .ci/nightly runs it"]
 fn another_ground_between_two_times_is_named_with_its_times() {
     let found = diagnosis(&["ground-change:across_factor=1.3,from_s=50,until_s=101"]);
     assert_eq!(physics(&found), [BTreeSet::from(["ground-change"])], "{:?}", named(&found));
@@ -259,6 +262,7 @@ fn a_slide_is_inertia_and_no_clock() {
 
 /// The file knows of a height, and a wrong one: no form of its law, and no other law.
 #[test]
+#[ignore = "half a minute: .ci/nightly runs it"]
 fn a_wrong_height_in_the_file_is_named_with_the_right_one() {
     const HEIGHT: f64 = 0.25;
     let concealed = format!("load-transfer:cog_height_m={HEIGHT}");
@@ -276,6 +280,7 @@ fn inertia_is_named() {
 }
 
 #[test]
+#[ignore = "half a minute: .ci/nightly runs it"]
 fn friction_that_falls_with_slip_speed_is_named() {
     is_named("stribeck-friction");
 }
@@ -286,6 +291,7 @@ fn lugs_that_grip_better_one_way_are_named() {
 }
 
 #[test]
+#[ignore = "half a minute: .ci/nightly runs it"]
 fn a_drag_behind_the_robot_is_named() {
     is_named("hitch-drag");
 }
@@ -296,6 +302,7 @@ fn resistance_of_one_side_is_named() {
 }
 
 #[test]
+#[ignore = "half a minute: .ci/nightly runs it"]
 fn a_slope_is_named() {
     is_named("slope:angle_deg=3");
 }

@@ -26,3 +26,13 @@ pub struct Missing {
     /// Parameters with intervals; empty where it stands for a class of constants.
     pub parameters: Vec<Interval>,
 }
+
+impl Missing {
+    /// What is not in the catalogue and acts like the effects that are named, a sentence for each;
+    /// empty where nothing is known to.
+    pub fn resembling(&self) -> String {
+        let named = self.verdict.one_of.iter().filter(|_| self.kind != Kind::Constant);
+        let sentences = named.map(|effect| effect.card().resembles);
+        sentences.filter(|sentence| !sentence.is_empty()).collect::<Vec<_>>().join(" ")
+    }
+}

@@ -84,6 +84,8 @@ pub struct Card {
     pub assumes: &'static str,
     /// Where it shows in a map or a recording.
     pub shows: &'static str,
+    /// What is not in the catalogue and acts alike; empty where nothing is known to.
+    pub resembles: &'static str,
     /// Invariances of the ICR triple that it breaks.
     pub breaks: &'static [Symmetry],
     /// Pipeline stages at which it acts.

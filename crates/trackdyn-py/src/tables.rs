@@ -37,6 +37,7 @@ fn effect<'py>(py: Python<'py>, card: &Card) -> PyResult<Bound<'py, PyDict>> {
     dict.set_item("law", card.law)?;
     dict.set_item("assumes", card.assumes)?;
     dict.set_item("shows", card.shows)?;
+    dict.set_item("resembles", card.resembles)?;
     let breaks: String = card.breaks.iter().map(|symmetry| symmetry.letter()).collect();
     dict.set_item("breaks", breaks)?;
     dict.set_item("sources", card.sources.to_vec())?;

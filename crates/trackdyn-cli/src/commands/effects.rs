@@ -85,6 +85,9 @@ fn card(card: &Card) -> String {
     row("law", card.law);
     row("assumes", card.assumes);
     row("shows", card.shows);
+    if !card.resembles.is_empty() {
+        row("alike", card.resembles);
+    }
     row("breaks", &letters(card.breaks));
     row("acts at", &stages(card));
     for term in card.terms() {
@@ -175,6 +178,9 @@ fn markdown_card(card: &Card) -> String {
     let _ = writeln!(text, "**Law.** {}\n", card.law);
     let _ = writeln!(text, "**Assumes.** {}\n", card.assumes);
     let _ = writeln!(text, "**Shows.** {}\n", card.shows);
+    if !card.resembles.is_empty() {
+        let _ = writeln!(text, "**Acts alike.** {}\n", card.resembles);
+    }
     text += &markdown_terms(card);
     for parameter in alone(card) {
         let unit = if parameter.unit == "1" { "" } else { parameter.unit };

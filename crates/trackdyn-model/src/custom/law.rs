@@ -83,6 +83,7 @@ impl CustomLaw {
             law,
             assumes: "What the function assumes that defines it.",
             shows: "Where the function says.",
+            resembles: "",
             breaks: &[],
             stages: stage,
             parameters: Box::leak(parameters.into_boxed_slice()),

@@ -19,6 +19,7 @@ impl Effect for BackwardGain {
                   misses edges in one direction.",
         shows: "Right forward, wrong backward: straight reversing drives a curve, spins turn more \
                 or less than they should.",
+        resembles: "Belts that hang slack on one way.",
         breaks: &[Symmetry::Reversal, Symmetry::Manoeuvre, Symmetry::Mirror, Symmetry::Straight],
         stages: &[Stage::Drive],
         parameters: &[

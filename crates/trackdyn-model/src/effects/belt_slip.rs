@@ -18,6 +18,7 @@ impl Effect for BeltSlip {
                   on the sprocket.",
         shows: "The outer belt runs slower and the inner one faster than shown: the ICRs move \
                 outwards, and differ between manoeuvres.",
+        resembles: "A belt that stretches, or a clutch that slips.",
         breaks: &[Symmetry::Manoeuvre],
         stages: &[Stage::Drive],
         parameters: &[Parameter {

@@ -24,6 +24,7 @@ impl Effect for Bulldozing {
                   it is pushed.",
         shows: "Like more friction across, but where the slip is mostly along the track it does \
                 not fade: the ICRs move outwards. It belongs to the class of constants.",
+        resembles: "",
         breaks: &[],
         stages: &[Stage::Shear],
         parameters: &[Parameter {

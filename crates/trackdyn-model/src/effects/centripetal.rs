@@ -20,6 +20,7 @@ impl Effect for Centripetal {
                   of μ_x and μ_y.",
         shows: "Fast turns: y grows with speed and changes sides between forward and reverse. It \
                 makes the absolute friction visible.",
+        resembles: "Frames that give way, so that the tracks splay in quick turns.",
         breaks: &[Symmetry::SpeedScale, Symmetry::Reversal, Symmetry::Manoeuvre],
         stages: &[Stage::Wrench],
         parameters: &[Parameter {

@@ -16,6 +16,7 @@ impl Effect for CogShift {
         law: "(x_c, y_c) ← (x_c + Δx, y_c + Δy)",
         assumes: "A load that stays where it is. The mass does not change.",
         shows: "Moves the constant ICRs: y with Δy, their middle with Δx, as by friction-split.",
+        resembles: "A load that was put on.",
         breaks: &[Symmetry::Mirror],
         stages: &[Stage::Body],
         parameters: &[

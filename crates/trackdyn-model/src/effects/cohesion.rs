@@ -19,6 +19,7 @@ impl Effect for Cohesion {
         assumes: "Mohr-Coulomb: the same c in all directions and under the whole contact.",
         shows: "Draws the ratio of friction across to along towards 1, and takes weight from the \
                 centre of gravity. It belongs to the class of constants.",
+        resembles: "",
         breaks: &[],
         stages: &[Stage::Shear],
         parameters: &[Parameter {

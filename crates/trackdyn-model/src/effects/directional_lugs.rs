@@ -18,6 +18,7 @@ impl Effect for DirectionalLugs {
         law: "τ_y = −μ_y (1 − δ sign(s_y)) p s_y/|s|",
         assumes: "Friction across does not change.",
         shows: "Forward and reverse turns have different ICRs.",
+        resembles: "A steady force on the body along the tracks.",
         breaks: &[Symmetry::Reversal],
         stages: &[Stage::Shear],
         parameters: &[Parameter {

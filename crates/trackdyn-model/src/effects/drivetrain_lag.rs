@@ -18,6 +18,7 @@ impl Effect for DrivetrainLag {
                   or speeds that were commanded and not measured.",
         shows: "Nothing at constant speeds; where they change, a delay of T. Frequent poses tell \
                 it from a clock offset, poses every few T do not.",
+        resembles: "A slow controller, or a filter of the encoders.",
         breaks: &[Symmetry::Transient],
         stages: &[Stage::Drive],
         parameters: &[Parameter {

@@ -18,6 +18,7 @@ impl Effect for EncoderScale {
         assumes: "Constant factors: a wrong sprocket radius, stretched belts, uneven wear.",
         shows: "Straight commands drive a curve where the factors differ, else a wrong distance. \
                 A wrong scale of the map looks like equal factors.",
+        resembles: "A wrong wheel radius or pitch, or tyres that are worn.",
         breaks: &[Symmetry::Manoeuvre, Symmetry::Mirror, Symmetry::Straight],
         stages: &[Stage::Drive],
         parameters: &[

@@ -28,6 +28,7 @@ impl Effect for ForceLaw {
                   Changes of speed and what sensors and encoders do have no term.",
         shows: "Where its terms say. A diagnosis proposes terms of it where no effect explains \
                 what is left.",
+        resembles: "",
         breaks: &[
             Symmetry::SpeedScale,
             Symmetry::Reversal,

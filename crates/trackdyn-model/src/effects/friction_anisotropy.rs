@@ -18,6 +18,7 @@ impl Effect for FrictionAnisotropy {
         assumes: "Both sides alike. Slow driving on level ground depends on μ_x/μ_y alone.",
         shows: "The common distance of the ICRs from the middle. It belongs to the class of \
                 constants.",
+        resembles: "",
         breaks: &[],
         stages: &[Stage::Ground],
         parameters: &[Parameter {

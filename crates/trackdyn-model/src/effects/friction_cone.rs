@@ -34,6 +34,7 @@ impl Effect for FrictionCone {
                   (22).",
         shows: "ICRs move as by another ratio of friction, by an amount that depends on how far \
                 slip is from both axes. It belongs to the class of constants.",
+        resembles: "",
         breaks: &[],
         stages: &[Stage::Shear],
         parameters: &[

@@ -24,6 +24,7 @@ impl Effect for FrictionCreep {
                   their load: under an even load, this law with v_c = slip1 · μ N of a contact.",
         shows: "Slow turns see less friction near the ICRs, which move outwards; fast turns do \
                 not.",
+        resembles: "Rubber blocks that bend before they slide.",
         breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
         stages: &[Stage::Shear],
         parameters: &[

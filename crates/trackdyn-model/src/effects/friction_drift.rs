@@ -19,6 +19,7 @@ impl Effect for FrictionDrift {
                   worn, belts that warm up.",
         shows: "The ICRs of one manoeuvre move slowly in the course of a recording, wherever the \
                 robot is.",
+        resembles: "Ground that dries, and tracks that warm.",
         breaks: &[Symmetry::Time],
         stages: &[Stage::Ground],
         parameters: &[Parameter {

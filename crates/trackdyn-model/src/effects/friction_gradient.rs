@@ -18,6 +18,7 @@ impl Effect for FrictionGradient {
         law: "τ = −[μ] p (1 + γ η) s/|s|, η = −1 at the rear end of the contact, +1 at its front",
         assumes: "Linear along the contact, alike on both sides and in both directions.",
         shows: "y moves towards the end with more friction. It belongs to the class of constants.",
+        resembles: "",
         breaks: &[],
         stages: &[Stage::Shear],
         parameters: &[Parameter {

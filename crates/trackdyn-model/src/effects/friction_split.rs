@@ -18,6 +18,7 @@ impl Effect for FrictionSplit {
         assumes: "Both directions of friction change by the same factor.",
         shows: "Moves the constant ICRs like a lateral cog-shift. ICRs alone cannot tell them \
                 apart.",
+        resembles: "A track that is worn or wet.",
         breaks: &[Symmetry::Mirror],
         stages: &[Stage::Ground],
         parameters: &[Parameter {

@@ -20,6 +20,7 @@ impl Effect for GroundChange {
         assumes: "One other ground, wherever the robot is: runs on grass among runs on asphalt, \
                   rain that begins.",
         shows: "The ICRs lie elsewhere between two times, and as before outside of them.",
+        resembles: "Rain, or another tool on the robot.",
         breaks: &[Symmetry::Time],
         stages: &[Stage::Ground],
         parameters: &[

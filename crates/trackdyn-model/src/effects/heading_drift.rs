@@ -18,6 +18,7 @@ impl Effect for HeadingDrift {
                   reported twist draws.",
         shows: "Left and right turns, fast and slow ones seem to have different ICRs; a robot at \
                 rest or on a straight seems to turn.",
+        resembles: "A gyroscope with a bias.",
         breaks: &[
             Symmetry::SpeedScale,
             Symmetry::Reversal,

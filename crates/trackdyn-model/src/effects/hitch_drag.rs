@@ -24,6 +24,7 @@ impl Effect for HitchDrag {
                   is held by up to d m g, as it creeps at less than 1 µm/s.",
         shows: "The drag turns with the motion of the hitch: counter-rotation sees it across, arcs \
                 along the tracks. Close to motion resistance.",
+        resembles: "Running gear that grips more where it is steered, and soil that piles up.",
         breaks: &[Symmetry::Manoeuvre],
         stages: &[Stage::Wrench],
         parameters: &[

@@ -19,6 +19,7 @@ impl Effect for LateGain {
         assumes: "One change at one time: a belt that jumped or came loose, a tyre that lost air, \
                   another setting of a motor controller.",
         shows: "All is as it was until a time, and straight driving bends from then on.",
+        resembles: "A tyre that loses pressure.",
         breaks: &[Symmetry::Time],
         stages: &[Stage::Drive],
         parameters: &[

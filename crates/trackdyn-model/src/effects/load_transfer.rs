@@ -19,6 +19,7 @@ impl Effect for LoadTransfer {
                   change. dv_cog/dt counts where inertia does. The pressure is linear along the \
                   part of the track that bears; what would have to pull has lifted.",
         shows: "Fast turns: the outer track gains load, so its ICR comes closer.",
+        resembles: "A hull that leans on its suspension.",
         breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
         stages: &[Stage::Load],
         parameters: &[Parameter {

@@ -38,6 +38,7 @@ impl Effect for MotionResistance {
                   none.",
         shows: "The map is constant in each sector of the signs of V_l, V_r and |V_r| − |V_l|, and \
                 jumps between sectors.",
+        resembles: "Friction of bearings, rollers and belts.",
         breaks: &[Symmetry::Manoeuvre],
         stages: &[Stage::Wrench],
         parameters: &[Parameter {

@@ -22,6 +22,7 @@ impl Effect for PressureConcentration {
                   r²/l² − 1) to first order, with r² the mean of their y² about the middle; axles \
                   in the vehicle file are exact.",
         shows: "Ends count for more: the ICRs move outwards. It belongs to the class of constants.",
+        resembles: "",
         breaks: &[],
         stages: &[Stage::Shear],
         parameters: &[Parameter {

@@ -19,6 +19,7 @@ impl Effect for ResistanceSplit {
         assumes: "As motion-resistance, to which it adds; alone, it is the departure from a mean \
                   resistance of zero.",
         shows: "Piecewise constant ICRs that differ between a turn and its mirror image.",
+        resembles: "A brake that drags on one side.",
         breaks: &[Symmetry::Manoeuvre, Symmetry::Mirror],
         stages: &[Stage::Wrench],
         parameters: &[Parameter {

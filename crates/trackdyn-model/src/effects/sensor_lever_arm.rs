@@ -17,6 +17,7 @@ impl Effect for SensorLeverArm {
         assumes: "A rigid mount. Poses are those of the sensor, not corrected for where it sits.",
         shows: "All ICRs appear shifted by (−Δx, −Δy): exactly what a constant change of the ICRs \
                 would do. Only a measured mount tells.",
+        resembles: "",
         breaks: &[Symmetry::Mirror],
         stages: &[Stage::Sense],
         parameters: &[

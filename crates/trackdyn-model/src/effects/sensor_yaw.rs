@@ -17,6 +17,7 @@ impl Effect for SensorYaw {
         assumes: "A rigid mount; the yaw rate is the same in both axes.",
         shows: "A straight run seems to drift sideways in proportion to its speed. In wide turns y \
                 seems to move with the radius.",
+        resembles: "",
         breaks: &[Symmetry::Manoeuvre, Symmetry::Mirror, Symmetry::Straight],
         stages: &[Stage::Sense],
         parameters: &[Parameter {

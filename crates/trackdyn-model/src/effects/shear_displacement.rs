@@ -31,6 +31,7 @@ impl Effect for ShearDisplacement {
                   track moves and travels to the point at the belt's speed; the small turn of the \
                   hull meanwhile is left out. A belt that stands still has sheared fully.",
         shows: "y moves against the direction of travel, more so the slower the slip builds up.",
+        resembles: "Lugs or tyres that bend before they slide.",
         breaks: &[Symmetry::Reversal, Symmetry::Manoeuvre],
         stages: &[Stage::Shear],
         parameters: &[

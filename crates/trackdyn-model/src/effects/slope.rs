@@ -18,6 +18,7 @@ impl Effect for Slope {
         assumes: "A plane; the robot's heading stays what it is while it turns by a little.",
         shows: "ICRs that move with the heading; nothing in straight driving where the tracks \
                 stick, as they do unless friction or belts need slip to bear a load.",
+        resembles: "A steady pull in one direction of the world, as of wind or a long cable.",
         breaks: &[Symmetry::Reversal, Symmetry::Mirror, Symmetry::Heading],
         stages: &[Stage::Ground],
         parameters: &[

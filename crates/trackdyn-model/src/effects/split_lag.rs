@@ -18,6 +18,7 @@ impl Effect for SplitLag {
                   come late.",
         shows: "Nothing at constant speeds; where both change alike, the robot turns for the time \
                 δ.",
+        resembles: "Play in the gears of one side.",
         breaks: &[Symmetry::Transient],
         stages: &[Stage::Drive],
         parameters: &[

@@ -21,6 +21,7 @@ impl Effect for StribeckFriction {
                   slip.",
         shows: "The ICRs of slow turns differ from those of fast ones, alike forward and in \
                 reverse, and most at slow speeds.",
+        resembles: "A film of water or mud, and rubber that warms.",
         breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
         stages: &[Stage::Shear],
         parameters: &[

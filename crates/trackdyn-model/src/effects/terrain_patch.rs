@@ -21,6 +21,7 @@ impl Effect for TerrainPatch {
         assumes: "A disc; each side has the mean friction of what lies under its middle line. \
                   With both sides on it the ratio alone counts, with one side each coefficient.",
         shows: "The ICRs jump at a place, the same each time the robot comes by.",
+        resembles: "An edge or a cable that was driven over.",
         breaks: &[Symmetry::Place],
         stages: &[Stage::Ground],
         parameters: &[

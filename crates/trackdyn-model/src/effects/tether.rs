@@ -20,6 +20,7 @@ impl Effect for Tether {
                   None where the robot stands on the anchor.",
         shows: "The ICRs move with heading and place; close to a slope while the robot stays where \
                 it is.",
+        resembles: "A cable whose pull grows with its length.",
         breaks: &[Symmetry::Reversal, Symmetry::Mirror, Symmetry::Heading, Symmetry::Place],
         stages: &[Stage::Wrench],
         parameters: &[

@@ -17,6 +17,7 @@ impl Effect for TimeOffset {
         assumes: "A constant delay.",
         shows: "Nothing at constant speeds. Where they change, the robot seems to lag as behind a \
                 slow drivetrain.",
+        resembles: "A filter of the poses.",
         breaks: &[Symmetry::Transient],
         stages: &[Stage::Sense],
         parameters: &[Parameter {

@@ -19,6 +19,7 @@ impl Effect for ViscousFriction {
         assumes: "Both directions of friction grow by the same factor.",
         shows: "The ICRs of fast turns differ from those of slow ones, alike forward and in \
                 reverse.",
+        resembles: "Soil that piles up before a quick track.",
         breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
         stages: &[Stage::Shear],
         parameters: &[Parameter {

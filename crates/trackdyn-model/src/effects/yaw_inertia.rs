@@ -21,6 +21,7 @@ impl Effect for YawInertia {
                   vehicle's absolute friction is right.",
         shows: "The robot lags behind changes of the track speeds, most behind quick ones. Steady \
                 turns do not show it.",
+        resembles: "Motors and gears that are spun up with the tracks.",
         breaks: &[Symmetry::Transient],
         stages: &[Stage::Wrench],
         parameters: &[

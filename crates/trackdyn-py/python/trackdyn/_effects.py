@@ -24,7 +24,8 @@ class EffectParameter:
 class Effect:
     """Physics beyond the base model, which a vehicle may have.
 
-    `breaks` are letters of the symmetries of the ICRs that it breaks, see docs/effects.md.
+    `resembles` is what is not in the catalogue and acts alike. `breaks` are letters of the
+    symmetries of the ICRs that it breaks, see docs/effects.md.
     """
 
     id: str
@@ -32,6 +33,7 @@ class Effect:
     law: str
     assumes: str
     shows: str
+    resembles: str
     breaks: str
     sources: tuple[str, ...]
     parameters: tuple[EffectParameter, ...]

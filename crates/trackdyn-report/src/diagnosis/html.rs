@@ -69,6 +69,7 @@ struct Missing {
     title: String,
     law: String,
     shows: String,
+    resembling: String,
     parameters: Vec<Parameter>,
     support: Vec<Row>,
 }
@@ -220,6 +221,7 @@ fn missing(subject: &Subject) -> Vec<Missing> {
                 },
                 law: if constant { String::new() } else { card.law.to_owned() },
                 shows: if constant { String::new() } else { card.shows.to_owned() },
+                resembling: missing.resembling(),
                 parameters: parameters.collect(),
                 support: vec![
                     row("probability of chance", probability(support.p)),

@@ -50,6 +50,11 @@ impl<'a> Claim<'a> {
         sizes.collect()
     }
 
+    /// What is not in the catalogue and acts like these effects; empty where nothing is known to.
+    pub fn resembling(&self) -> String {
+        self.missing.resembling()
+    }
+
     /// Evidence, verdict and intervals.
     pub fn missing(&self) -> &'a Missing {
         self.missing

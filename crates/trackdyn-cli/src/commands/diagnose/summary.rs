@@ -50,6 +50,10 @@ pub fn text(diagnosis: &Diagnosis) -> String {
         if missing.verdict.one_of.len() > 1 {
             text += &wrapped("           decides: ", &separate_by(missing));
         }
+        let resembling = missing.resembling();
+        if !resembling.is_empty() {
+            text += &wrapped("           acts alike: ", &resembling);
+        }
     }
     if let Some(level) = diagnosis.models.friction_level.filter(|level| level.is_sure) {
         text += &wrapped("friction ", &friction(level));

@@ -54,7 +54,7 @@ settings_group! {
         held_changes_per_early_one: usize = 10, "", [1.0, 1e6],
             "Late stamps bring a change early.",
             "Lower: any changing speed is joined.";
-        /// Rise of twice the misfit up to which cleaned readings are kept.
+        /// Largest rise of twice the misfit by cleaned readings.
         max_rise_by_cleaning: f64 = 4.0, "", [0.0, 1e6],
             "Two standard deviations.",
             "Lower: jitter looks like a lag.";

@@ -48,7 +48,7 @@ settings_group! {
             "Lower: inertia hardly shows.";
         /// Ratio of these arcs.
         arc_step_ratio: f64 = 0.3, "", [0.01, 0.99],
-            "As of the tightest arcs.",
+            "As in the tightest arcs.",
             "Higher: inertia hardly shows.";
         /// Ratio of creeping arcs.
         creeping_ratio: f64 = 0.4, "", [0.01, 0.99],

@@ -33,7 +33,7 @@ settings_group! {
             "Lower: physics passes for noise.";
         /// Slip, over twice the largest speed, in which friction may settle.
         friction_scales: [f64; 2] = [0.06, 0.2], "", [1e-3, 10.0],
-            "As of the catalogue's laws.",
+            "As in the catalogue.",
             "Friction of another scale passes for a walk.";
         /// Factor by which a run's variance must fall to renew its noise.
         min_variance_ratio: f64 = 1.3, "", [1.0, 1e6],

@@ -68,7 +68,7 @@ settings_group! {
             "Lower: beginnings are claimed as effects; higher: slower.";
         /// Mass over friction, against the file's, at which Newton's law is tried.
         newton_levels: [f64; 4] = [0.3, 1.0, 3.0, 9.0], "", [1e-3, 10.0],
-            "Two decades.",
+            "A factor of 30.",
             "A robot on ice keeps a late clock.";
         /// ICR offset that the vehicle need not take over.
         max_offset: f64 = 5e-3, "gauge", [1e-6, 1.0],

@@ -91,7 +91,7 @@ settings_group! {
         max_innovation: f64 = 3.4, "sd", [0.5, 1e9],
             "One of 1,500 is larger.",
             "Higher: outliers turn the poses about them.";
-        /// Fewest readings at stand-still that tell its noise alone.
+        /// Fewest readings at rest that tell its noise.
         min_still: usize = 100, "", [3.0, 1e6],
             "A second at 100 Hz.",
             "Lower: chance sets its noise.";

@@ -17,8 +17,7 @@ impl Effect for FrictionDrift {
         law: "μ_x ← (1 + r t) μ_x, not below a twentieth",
         assumes: "Linear in the time since the start of the recording: ground that dries or is \
                   worn, belts that warm up.",
-        shows: "The ICRs of one manoeuvre move slowly in the course of a recording, wherever the \
-                robot is.",
+        shows: "The ICRs move slowly in the course of a recording, wherever the robot is.",
         resembles: "Ground that dries, and tracks that warm.",
         breaks: &[Symmetry::Time],
         stages: &[Stage::Ground],

@@ -19,7 +19,7 @@ impl Effect for GroundChange {
         law: "μ_x ← κ^(φ(t − t₀) − φ(t − t₁)) μ_x, φ rises from 0 to 1 within 2 s",
         assumes: "One other ground, wherever the robot is: runs on grass among runs on asphalt, \
                   rain that begins.",
-        shows: "The ICRs lie elsewhere between two times, and as before outside of them.",
+        shows: "The ICRs lie elsewhere between two times.",
         resembles: "Rain, or another tool on the robot.",
         breaks: &[Symmetry::Time],
         stages: &[Stage::Ground],

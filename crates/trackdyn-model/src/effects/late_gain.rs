@@ -18,7 +18,7 @@ impl Effect for LateGain {
         law: "V = α (1 + (γ − 1) φ(t − t₀)) V_e, φ rises from 0 to 1 within 2 s",
         assumes: "One change at one time: a belt that jumped or came loose, a tyre that lost air, \
                   another setting of a motor controller.",
-        shows: "All is as it was until a time, and straight driving bends from then on.",
+        shows: "Straight driving bends from a time on.",
         resembles: "A tyre that loses pressure.",
         breaks: &[Symmetry::Time],
         stages: &[Stage::Drive],

@@ -15,8 +15,8 @@ impl Effect for SensorLeverArm {
         title: "Pose sensor away from the origin",
         law: "reported velocity = v + ω × (Δx, Δy)",
         assumes: "A rigid mount. Poses are those of the sensor, not corrected for where it sits.",
-        shows: "All ICRs appear shifted by (−Δx, −Δy): exactly what a constant change of the ICRs \
-                would do. Only a measured mount tells.",
+        shows: "All ICRs appear shifted by (−Δx, −Δy), as by a constant change of the ICRs. Only \
+                a measured mount tells.",
         resembles: "",
         breaks: &[Symmetry::Mirror],
         stages: &[Stage::Sense],

@@ -247,14 +247,14 @@ struct Functions {
 
 impl Functions {
     fn of(evidence: &Evidence) -> Self {
-        /// Speed below which a robot stands, m/s.
-        const STANDING: f64 = 1e-3;
+        /// Least sum of the belt speeds that enters a logarithm or a quotient, m/s.
+        const MIN_SPEED: f64 = 1e-3;
         let of = |function: &dyn Fn(&Sample) -> f64| -> Vec<f64> {
             evidence.samples().iter().map(function).collect()
         };
         let whole = |sample: &Sample| {
             let [left, right] = [sample.speeds.left, sample.speeds.right].map(f64::abs);
-            (left + right).max(STANDING)
+            (left + right).max(MIN_SPEED)
         };
         let speed = standardised(of(&|sample| whole(sample).ln()));
         let squared = standardised(speed.iter().map(|speed| speed * speed).collect());

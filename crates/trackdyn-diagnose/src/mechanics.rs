@@ -24,7 +24,7 @@ mod slope;
 use crate::error::Impossible;
 use crate::evidence::{Evidence, Origin, Sample};
 use crate::hypothesis::{Hypothesis, Unknown};
-use crate::surface::{HOPELESS, Steady, Surface};
+use crate::surface::{MAX_UNSOLVED_SAMPLE_SHARE, Steady, Surface};
 use belts::lagging;
 use by_shear::ByShear;
 use ground::{Acts, ByGround, acts};
@@ -45,7 +45,7 @@ use trackdyn_recording::TrackSample;
 use trackdyn_recording::hold::pieces;
 
 /// Samples that one parallel task predicts or solves.
-const TASK: usize = 64;
+const SAMPLES_PER_TASK: usize = 64;
 
 /// The expensive part of a prediction: independent of sensors, of gains and lags of the drive, and
 /// of constant ICR offsets.
@@ -276,7 +276,7 @@ impl Mechanics {
         // An impossible hypothesis needs no departures, which cost most where no forces balance.
         let unsolved = still.surface.unsolved();
         if unsolved > settings.max_unsolved_share {
-            let share = (unsolved <= HOPELESS).then_some(unsolved);
+            let share = (unsolved <= MAX_UNSOLVED_SAMPLE_SHARE).then_some(unsolved);
             return Self { in_time: InTime::Impossible(Impossible::Unbalanced { share }), ..still };
         }
         let ground = (!varying.is_empty()).then(|| {
@@ -376,7 +376,7 @@ impl Mechanics {
         let reported = sensor.reporting();
         (0..samples.len())
             .into_par_iter()
-            .with_min_len(TASK)
+            .with_min_len(SAMPLES_PER_TASK)
             .map(|index| {
                 let sample = &samples[index];
                 let by_ground = self.ground.as_ref().map(|ground| ground.departures[index]);

@@ -184,12 +184,12 @@ struct Solved {
     starts: Vec<Option<Near>>,
 }
 
-/// Of the nodes, every so many are solved first.
-const SAMPLED: usize = 8;
+/// Distance of the nodes that are solved first, as a sample: every eighth.
+const SAMPLE_STRIDE: usize = 8;
 
-/// Share of these without a motion from which on no others are tried: where no forces balance, a
-/// search for them takes longest.
-pub const HOPELESS: f64 = 0.5;
+/// Largest share of the sample without a motion: with more, no other node is tried, for a search
+/// takes longest where no forces balance.
+pub const MAX_UNSOLVED_SAMPLE_SHARE: f64 = 0.5;
 
 impl Solved {
     fn of(model: &Model, (grid, scale): (&Grid, Scale), before: Option<&Surface>) -> Self {
@@ -203,12 +203,12 @@ impl Solved {
             (node, solution.linearised.map(Near::Linearised))
         };
         let sample: Vec<_> =
-            (0..Grid::NODES).into_par_iter().step_by(SAMPLED).map(solved).collect();
+            (0..Grid::NODES).into_par_iter().step_by(SAMPLE_STRIDE).map(solved).collect();
         let without = sample.iter().filter(|(node, _)| node.is_none()).count();
-        let is_hopeless = real(without) > HOPELESS * real(sample.len());
+        let is_hopeless = real(without) > MAX_UNSOLVED_SAMPLE_SHARE * real(sample.len());
         let node = |index: usize| {
-            if index.is_multiple_of(SAMPLED) {
-                sample[index / SAMPLED]
+            if index.is_multiple_of(SAMPLE_STRIDE) {
+                sample[index / SAMPLE_STRIDE]
             } else if is_hopeless {
                 (None, None)
             } else {

@@ -6,8 +6,8 @@
 use statrs::distribution::{ContinuousCDF, StudentsT};
 use trackdyn_core::real;
 
-/// z₀.₉₇₅ of the normal distribution.
-const NORMAL_QUANTILE: f64 = 1.959_964;
+/// z₀.₉₇₅ of the normal distribution: half of a 95 % interval, in standard deviations.
+pub const NORMAL_QUANTILE: f64 = 1.959_964;
 
 /// A number with its 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq)]

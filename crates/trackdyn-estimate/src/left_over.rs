@@ -18,8 +18,8 @@ const RAYLEIGH_MEDIAN: f64 = 1.177_410_022_515_475;
 /// Least way of a robot per way of its tracks that tells of the tracks.
 const MIN_WAY: f64 = 0.15;
 
-/// Part of what may be left of the way that is left of a block where nothing is wrong.
-const QUIET: f64 = 0.5;
+/// Part of `most` below which the way that a block leaves counts as well fitted.
+const MAX_FITTED_SHARE: f64 = 0.5;
 
 /// Parts of the motion that parameters leave.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,7 +104,7 @@ impl LeftOver {
                 median(&mut range.clone().map(off).collect::<Vec<_>>()).unwrap_or(0.0) / usual
             })
             .collect();
-        let quiet = lefts.iter().filter(|left| **left < QUIET * most).count();
+        let quiet = lefts.iter().filter(|left| **left < MAX_FITTED_SHARE * most).count();
         let first = lefts.iter().position(|left| *left > most)?;
         let last = lefts.iter().rposition(|left| *left > most)?;
         let (from, to) = (&segments[ranges[first].start], &segments[ranges[last].end - 1]);

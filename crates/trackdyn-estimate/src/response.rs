@@ -39,8 +39,8 @@ pub const DURATION: f64 = 2.0;
 const STEP: f64 = 0.5;
 const REACH: usize = 6;
 
-/// The delays of short logs: every second one.
-const COARSE: usize = 2;
+/// Stride through the delays for short logs: every second one.
+const COARSE_STEP: usize = 2;
 
 /// Smallest significance of a response, in standard errors: of the difference of both distances,
 /// and of what the delays gain in blocks that they were not fitted to. Chance reaches it in fewer
@@ -107,7 +107,7 @@ impl Response {
         if count < MIN_BLOCKS {
             return None;
         }
-        let step = if count < BLOCKS_PER_UNKNOWN * (2 * REACH + 2) { COARSE } else { 1 };
+        let step = if count < BLOCKS_PER_UNKNOWN * (2 * REACH + 2) { COARSE_STEP } else { 1 };
         let within = |reach: usize| long.fit(Delays::Every { half: reach / step, step });
         let [free, half, delay_alone] = [within(REACH)?, within(REACH / 2)?, within(0)?];
         let shifted = long.fit_weighted(Delays::Shifted, &free.weights)?;

@@ -37,10 +37,12 @@ const MIN_YAW: f64 = std::f64::consts::PI;
 /// odometry no better than a guess does.
 const MAX_HALF_WIDTH: f64 = 0.25;
 
-/// Share of the turning that is opposite to the tracks. From the first on, it is the reason that is
-/// given where no distance fits; from the second on, every distance is refused.
+/// Least share of the turning against the tracks that a refusal names as its reason, where no
+/// distance fits.
 const MIN_AGAINST: f64 = 0.2;
-const CONTRADICTS: f64 = 0.4;
+
+/// Share of the turning against the tracks at which every distance is refused.
+const MAX_AGAINST: f64 = 0.4;
 
 /// Reweighting has settled long before.
 const ITERATIONS: usize = 50;
@@ -182,7 +184,7 @@ impl Separation {
             ))
         };
         match of_scatter {
-            _ if against >= CONTRADICTS => Err(goes_against()),
+            _ if against >= MAX_AGAINST => Err(goes_against()),
             Some(gap) if gap.low > 0.0 && gap.half_width() <= MAX_HALF_WIDTH * gap.value => {
                 Ok(Self { gap, turns: turns.len(), groups: groups.len() })
             }

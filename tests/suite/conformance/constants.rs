@@ -32,7 +32,6 @@ const ARGUED: &[Argued] = &[
     // definitions and formats
     ("diagnose", "base.rs", &["OFFSETS", "INERTIA_UNKNOWNS"], "places of unknowns"),
     ("diagnose", "compare.rs", &["STAGES"], "stages, as they are reported"),
-    ("diagnose", "compare/quantity.rs", &["HALF"], "quantile of a 95 % interval"),
     (
         "diagnose",
         "compare/words.rs",
@@ -66,7 +65,7 @@ const ARGUED: &[Argued] = &[
     ("diagnose", "drift.rs", &["ROUNDING"], "rounding of a sum"),
     ("diagnose", "evidence/series.rs", &["ROUNDING"], "rounding of a time"),
     ("diagnose", "fit.rs", &["ROUNDING"], "rounding of a value at its limit"),
-    ("diagnose", "form.rs", &["STANDING"], "keeps a logarithm finite at rest"),
+    ("diagnose", "form.rs", &["MIN_SPEED"], "keeps a logarithm finite at rest"),
     ("diagnose", "held_out.rs", &["MIN_EXCESS"], "guards a ratio; it is reported alone"),
     ("diagnose", "locate/waves.rs", &["MIN_INDEPENDENT"], "rank of a matrix"),
     ("diagnose", "mechanics/simulated.rs", &["LN_FRICTION_ROUNDING"], "rounding of a sum"),
@@ -77,7 +76,7 @@ const ARGUED: &[Argued] = &[
         "keep sums regular whose columns depend on each other",
     ),
     ("diagnose", "significance.rs", &["MIN_EIGENVALUE_RATIO"], "rank of a matrix"),
-    ("diagnose", "weighted/starts.rs", &["UNFELT"], "rank of a matrix"),
+    ("diagnose", "weighted/starts.rs", &["MIN_EIGENVALUE"], "rank of a matrix"),
     ("estimate", "gyroscope/level.rs", &["MIN_WHITE", "MIN_WALK"], "keep variances above rounding"),
     ("estimate", "gyroscope/level.rs", &["DIFFERENCES"], "makes whitening a difference"),
     ("estimate", "segment.rs", &["MAX_INTERVALS"], "keeps a count finite"),
@@ -96,12 +95,22 @@ const ARGUED: &[Argued] = &[
     ("diagnose", "compare/quantity.rs", &["SHARE"], "difference of what is nearly linear"),
     ("diagnose", "locate/waves/belts.rs", &["STEP"], "difference of what is nearly linear"),
     ("diagnose", "mechanics.rs", &["STEP"], "difference of what is nearly linear"),
-    ("diagnose", "mechanics.rs", &["TASK"], "samples for each thread"),
-    ("diagnose", "mechanics/ground.rs", &["PROBED"], "forces differ exactly, in any turn"),
-    ("diagnose", "mechanics/ground.rs", &["MAX_FAR", "FAR"], "when starts of solves are kept"),
+    ("diagnose", "mechanics.rs", &["SAMPLES_PER_TASK"], "samples for each thread"),
+    ("diagnose", "mechanics/ground.rs", &["PROBE_SPEEDS"], "forces differ exactly, in any turn"),
+    (
+        "diagnose",
+        "mechanics/ground.rs",
+        &["MAX_FAR_SHARE", "MAX_NEAR_STEPS"],
+        "when starts of solves are kept",
+    ),
     ("diagnose", "mechanics/simulated.rs", &["DELAYS"], "how much is kept"),
     ("diagnose", "plan.rs", &["SPIN_SPEED"], "slow ICRs are those of any slow speed"),
-    ("diagnose", "surface.rs", &["SAMPLED", "HOPELESS"], "a hypothesis fails before that anyway"),
+    (
+        "diagnose",
+        "surface.rs",
+        &["SAMPLE_STRIDE", "MAX_UNSOLVED_SAMPLE_SHARE"],
+        "a hypothesis fails before that anyway",
+    ),
     ("diagnose", "surface/table.rs", &["ANGLES", "SIZES"], "nodes of a table"),
     (
         "estimate",
@@ -136,7 +145,7 @@ const ARGUED: &[Argued] = &[
         "a diagnosis warns of these and goes on",
     ),
     ("estimate", "contradiction/text.rs", &["USUAL_EFFICIENCIES"], "an example in a message"),
-    ("estimate", "left_over.rs", &["MIN_WAY", "QUIET"], "a diagnosis warns and goes on"),
+    ("estimate", "left_over.rs", &["MIN_WAY", "MAX_FITTED_SHARE"], "a diagnosis warns and goes on"),
     ("estimate", "segment.rs", &["MIN_DURATION_SHARE"], "no segment of a diagnosis is too short"),
 ];
 

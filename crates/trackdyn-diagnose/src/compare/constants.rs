@@ -1,13 +1,14 @@
 //! Which single number moves the constant ICRs of one set to those of the other.
 
 use super::Smallest;
-use super::quantity::{Estimate, Group, HALF, middle_half_y};
+use super::quantity::{Estimate, Group, middle_half_y};
 use crate::base::spin_with;
 use crate::candidate::sizes;
 use crate::diagnosis::Examination;
 use crate::hypothesis::{active, largest_size, neutral, typical_size};
 use nalgebra::{DMatrix, DVector, Vector3};
 use trackdyn_core::real;
+use trackdyn_estimate::interval::NORMAL_QUANTILE;
 use trackdyn_model::{EffectId, Effects, Vehicle};
 
 /// An effect that explains a difference of constant ICRs by itself, with the sizes that do.
@@ -47,7 +48,7 @@ pub(super) fn members(sets: [&Examination; 2], group: &Group) -> Vec<Member> {
 fn deviation(sets: [&Examination; 2], group: &Group) -> Vector3<f64> {
     let search = &sets[0].search;
     let gauge = search.base.as_filed.hypothesis.vehicle.gauge;
-    let form = search.settings().verdict.min_icr_difference * gauge / HALF;
+    let form = search.settings().verdict.min_icr_difference * gauge / NORMAL_QUANTILE;
     Vector3::from_fn(|n, _| group.numbers[n].difference.deviation().hypot(form))
 }
 
@@ -150,7 +151,7 @@ fn member(
     let slopes = slopes(&values)?;
     let covariance = slopes.tr_mul(&slopes).pseudo_inverse(1e-12).ok()?;
     let sizes = places.iter().enumerate().map(|(column, &place)| {
-        let half = HALF * covariance[(column, column)].max(0.0).sqrt();
+        let half = NORMAL_QUANTILE * covariance[(column, column)].max(0.0).sqrt();
         let value = values[place];
         (place, Estimate { value, low: value - half, high: value + half })
     });

@@ -11,13 +11,14 @@
 //! Birge, Physical Review 40(2), 1932 (the scale of χ²).
 
 use super::choice::Choice;
-use super::quantity::{Estimate, Group, HALF, Number, Quantity, Subject};
+use super::quantity::{Estimate, Group, Number, Quantity, Subject};
 use crate::diagnosis::Examination;
 use crate::hypothesis::Unknown;
 use crate::normal::Prior;
 use crate::prior::prior;
 use crate::search::Found;
 use trackdyn_core::real;
+use trackdyn_estimate::interval::NORMAL_QUANTILE;
 use trackdyn_model::EffectId;
 
 /// These groups, with the level of friction in place of the strengths of inertia, where it stands
@@ -79,7 +80,7 @@ fn level(strengths: &[Estimate]) -> Option<Estimate> {
     let scatter = (squares / real(strengths.len().saturating_sub(1).max(1))).max(1.0);
     let deviation = (scatter / weights).sqrt();
     // λ = −ln k
-    (mean > 0.0).then(|| Estimate::around(-mean.ln(), HALF * deviation / mean))
+    (mean > 0.0).then(|| Estimate::around(-mean.ln(), NORMAL_QUANTILE * deviation / mean))
 }
 
 #[cfg(test)]
@@ -87,7 +88,7 @@ mod tests {
     use super::*;
 
     fn strength(value: f64, deviation: f64) -> Estimate {
-        Estimate::around(value, HALF * deviation)
+        Estimate::around(value, NORMAL_QUANTILE * deviation)
     }
 
     #[test]

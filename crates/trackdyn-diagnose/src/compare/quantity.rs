@@ -9,11 +9,9 @@ use crate::normal::Prior;
 use crate::prior::prior;
 use crate::search::Found;
 use crate::uncertainty::{Interval, Spread, Uncertainty};
+use trackdyn_estimate::interval::NORMAL_QUANTILE;
 use trackdyn_model::effect::{Card, Parameter, Role};
 use trackdyn_model::{ActiveEffect, EffectId, Effects};
-
-/// Half width of a 95 % interval, in standard deviations.
-pub(super) const HALF: f64 = 1.96;
 
 /// What is compared as one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -104,7 +102,7 @@ impl Estimate {
     /// Standard deviation, as if the interval were that of a normal number; by its longer half,
     /// since the other may end at the limit of what is physical.
     pub fn deviation(&self) -> f64 {
-        (self.high - self.value).max(self.value - self.low) / HALF
+        (self.high - self.value).max(self.value - self.low) / NORMAL_QUANTILE
     }
 
     /// This less another estimate that is independent of it.

@@ -1,6 +1,6 @@
 //! Departure by ground that changes with place, heading or time.
 
-use super::{TASK, coarse, single};
+use super::{SAMPLES_PER_TASK, coarse, single};
 use crate::evidence::{Evidence, Origin, Sample};
 use crate::surface::Surface;
 use rayon::prelude::*;
@@ -48,7 +48,7 @@ pub fn acts(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> Ac
     let is_local = effect.card().parameters.iter().any(|one| is_somewhere(one.role));
     let step = if is_local { 1 } else { (samples.len() / probes).max(1) };
     let is_as_on_level = |other: &Model, at: &Circumstance| {
-        act_alike([&model, other], [&level, at], is_of_ground(effect), PROBED)
+        act_alike([&model, other], [&level, at], is_of_ground(effect), PROBE_SPEEDS)
     };
     let differs = |sample: &Sample| !is_as_on_level(&model, &circumstance(sample));
     if samples.iter().step_by(step).any(differs) {
@@ -59,7 +59,7 @@ pub fn acts(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> Ac
 }
 
 /// Belt speeds of the turn in which forces are probed, m/s.
-const PROBED: PerSide<f64> = PerSide::new(-0.2, 0.5);
+const PROBE_SPEEDS: PerSide<f64> = PerSide::new(-0.2, 0.5);
 
 /// Whether an effect acts by the ground alone: where that is alike, so are all forces.
 fn is_of_ground(effect: &ActiveEffect) -> bool {
@@ -101,12 +101,12 @@ pub struct ByGround {
 /// Known motions of a sample: at its place, and without what changes with the place.
 type Starts = [Option<Near>; 2];
 
-/// Share of the samples with a departure whose solves had far to go from which all motions are
-/// kept anew.
-const MAX_FAR: f64 = 0.1;
+/// Largest share of the samples with a departure whose solves had far to go: with more, the motions
+/// of all samples are kept as new starts.
+const MAX_FAR_SHARE: f64 = 0.1;
 
-/// Steps of a solve that had far to go.
-const FAR: usize = 3;
+/// Most steps of a solve whose start was near its motion; with more it had far to go.
+const MAX_NEAR_STEPS: usize = 3;
 
 /// A sample at which the ground changes the motion.
 struct Changed {
@@ -150,11 +150,12 @@ impl ByGround {
             Some(Changed {
                 departure: if usable { here.twist - there.twist } else { Twist::zero() },
                 starts: solved.map(|one| one.linearised.map(Near::Linearised)),
-                was_far: known == [None; 2] || solved.iter().any(|one| one.iterations > FAR),
+                was_far: known == [None; 2]
+                    || solved.iter().any(|one| one.iterations > MAX_NEAR_STEPS),
             })
         };
         let changes: Vec<Option<Changed>> =
-            samples.par_iter().enumerate().with_min_len(TASK).map(changed).collect();
+            samples.par_iter().enumerate().with_min_len(SAMPLES_PER_TASK).map(changed).collect();
         let departure = |change: &Option<Changed>| {
             change.as_ref().map_or(Twist::zero(), |change| change.departure)
         };
@@ -162,7 +163,7 @@ impl ByGround {
         let far = changes.iter().flatten().filter(|change| change.was_far).count();
         let all = changes.iter().flatten().count();
         let starts = match before {
-            Some(before) if real(far) <= MAX_FAR * real(all) => Arc::clone(before),
+            Some(before) if real(far) <= MAX_FAR_SHARE * real(all) => Arc::clone(before),
             _ => {
                 let starts = changes.iter().enumerate().map(|(index, change)| {
                     change.as_ref().map_or_else(|| known(index), |change| change.starts)

@@ -2,7 +2,7 @@
 
 use super::belts::lagging;
 use super::sheared::{self, Without};
-use super::{TASK, motion_over};
+use super::{SAMPLES_PER_TASK, motion_over};
 use crate::evidence::{Evidence, Sample};
 use crate::hypothesis::{Unknown, differences, typical_size};
 use crate::settings;
@@ -363,7 +363,7 @@ impl Inertia {
         // Unlocked: a job of the thread pool taken up in between may ask, too.
         let of = |sample: &Sample| self.departure(sample, delay);
         let twists: Arc<[Twist]> =
-            samples.par_iter().with_min_len(TASK).map(of).collect::<Vec<_>>().into();
+            samples.par_iter().with_min_len(SAMPLES_PER_TASK).map(of).collect::<Vec<_>>().into();
         let mut kept = kept();
         kept.truncate(DELAYS - 1);
         kept.push_front(Departures {

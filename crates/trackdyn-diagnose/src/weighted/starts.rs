@@ -14,8 +14,8 @@ use crate::evidence::{Sample, run_ranges};
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use std::ops::Range;
 
-/// Λ below which a direction is not felt.
-const UNFELT: f64 = 1e-9;
+/// Least eigenvalue Λ of a direction that the beginnings of the runs change.
+const MIN_EIGENVALUE: f64 = 1e-9;
 
 /// What unknown beginnings of the runs do to whitened residuals.
 pub struct Starts {
@@ -81,7 +81,7 @@ fn directions(samples: &Range<usize>, columns: &[Column; 3]) -> Vec<Direction> {
         |i: usize, k: usize| -> f64 { b[i].iter().zip(b[k]).map(|(x, y)| x.dot(y)).sum() };
     // bᵀ b = V Λ Vᵀ
     let SymmetricEigen { eigenvalues, eigenvectors } = Matrix3::from_fn(product).symmetric_eigen();
-    let felt = (0..3).filter(|&k| eigenvalues[k] > UNFELT);
+    let felt = (0..3).filter(|&k| eigenvalues[k] > MIN_EIGENVALUE);
     felt.map(|k| {
         // q = b v λ^−½
         let turned = eigenvectors.column(k) / eigenvalues[k].sqrt();

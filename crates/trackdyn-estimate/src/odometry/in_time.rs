@@ -21,7 +21,7 @@ use trackdyn_model::{Model, Sensor, Transient, VehicleFile};
 use trackdyn_recording::{PoseSample, Recording, Run, Source, UncheckedRun, hold, smoothed};
 
 /// Slip velocity below which a track sticks, m/s: no pose sensor sees it.
-const CREEP: f64 = 1e-4;
+const CREEP_SPEED: f64 = 1e-4;
 
 /// Delay of the poses in a replay by the forces on a vehicle, s: that of the file, where it has
 /// one; else the clock offset. An estimated offset holds the delay of the robot's own answer, which
@@ -82,7 +82,7 @@ pub(super) fn poses(
     // world_from_body = world_from_sensor (body_from_sensor)⁻¹
     let body = first.pose.compose(&sensor.mount().inverse());
     let mut until = first.t - delay - begin;
-    let robot = Transient::at_rest(&model, until, body).with_creep(CREEP);
+    let robot = Transient::at_rest(&model, until, body).with_creep(CREEP_SPEED);
     let mut robot = robot.moving_at(start);
     let mut path = Trajectory::default();
     path.push(robot.moment());

@@ -31,8 +31,9 @@ use rate::Rate;
 /// Latest that a stamped message may be logged after those of other topics, s: a slow SLAM.
 const MAX_LATENESS: f64 = 2.0;
 
-/// Time of logging within which a driver that logs in bursts logs some message at once, s.
-const BURSTS: f64 = 15.0;
+/// Length of the parts of the logging, s. Within each, a driver that logs in bursts logs some
+/// message at once.
+const PART_DURATION: f64 = 15.0;
 
 /// Smallest difference of two clocks that is told, s.
 const MIN_REPORTED_OFFSET: f64 = 0.2;
@@ -269,7 +270,7 @@ fn by_evidence(clocks: &[Clock], warnings: &mut Vec<Warning>) -> By {
 /// logging.
 fn soonest(pairs: &[(i64, i64)]) -> [f64; 2] {
     let Some(&(first, _)) = pairs.first() else { return [0.0; 2] };
-    let time = |pair: &(i64, i64)| (seconds(first, pair.0) / BURSTS).floor();
+    let time = |pair: &(i64, i64)| (seconds(first, pair.0) / PART_DURATION).floor();
     let ahead = |pair: &(i64, i64)| seconds(pair.0, pair.1);
     let parts = pairs.chunk_by(|a, b| time(a) == time(b));
     let largest = parts.map(|part| part.iter().map(ahead).fold(f64::NEG_INFINITY, f64::max));

@@ -10,14 +10,13 @@ use crate::text::{Horizontal, Style, TITLE_SIZE, Vertical};
 use crate::ticks::number;
 use trackdyn_core::real;
 use trackdyn_diagnose::locate::cells::Cell;
+use trackdyn_estimate::interval::NORMAL_QUANTILE;
 
 const TOP: i32 = sheet::TOP + 110;
 const ROW: i32 = 54;
 const LABELS: i32 = 600;
 const PANEL: i32 = 530;
 const GAP: i32 = 60;
-/// Half the width of a 95 % interval, in standard deviations.
-const HALF_INTERVAL: f64 = 1.96;
 /// Names of the triple.
 const NAMES: [&str; 3] =
     ["xₗ, ICR of the left track", "xᵣ, ICR of the right track", "y of both ICRs (forward)"];
@@ -101,7 +100,7 @@ fn panel(cells: &[&[Cell]; 2], k: usize, limit: f64, names: [&str; 2]) -> Panel 
         let mut estimates = Vec::new();
         for (row, cell) in cells[entry].iter().enumerate() {
             let (value, deviation) = cell.departure[k];
-            let (value, half) = (1e3 * value, 1e3 * HALF_INTERVAL * deviation);
+            let (value, half) = (1e3 * value, 1e3 * NORMAL_QUANTILE * deviation);
             let row = real(row) + aside;
             if !(value.is_finite() && half.is_finite()) {
                 continue;
@@ -140,7 +139,7 @@ fn limit(all: &[&[Cell]; 2]) -> f64 {
     let usual = quantile(departures().map(|(_, deviation)| deviation), 0.5).unwrap_or(0.0);
     let most = departures()
         .filter(|(_, deviation)| *deviation <= 4.0 * usual)
-        .map(|(value, deviation)| value.abs() + HALF_INTERVAL * deviation)
+        .map(|(value, deviation)| value.abs() + NORMAL_QUANTILE * deviation)
         .fold(0.0, f64::max);
     if most > 0.0 { 1.05e3 * most } else { 1.0 }
 }

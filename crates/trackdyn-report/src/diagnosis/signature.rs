@@ -12,6 +12,7 @@ use crate::ticks::number;
 use std::collections::HashSet;
 use trackdyn_core::real;
 use trackdyn_diagnose::exposure::Exposure;
+use trackdyn_estimate::interval::NORMAL_QUANTILE;
 
 const TOP: i32 = sheet::TOP + 140;
 const PLOT: [i32; 2] = [620, 420];
@@ -143,7 +144,7 @@ fn points(subject: &Subject, exposure: &Exposure, channel: usize) -> Vec<[f64; 2
 fn slope(points: &[[f64; 2]]) -> Option<(f64, f64)> {
     let square: f64 = points.iter().map(|[x, _]| x * x).sum();
     let product: f64 = points.iter().map(|[x, y]| x * y).sum();
-    (square > 0.0).then(|| (product / square, 1.96 / square.sqrt()))
+    (square > 0.0).then(|| (product / square, NORMAL_QUANTILE / square.sqrt()))
 }
 
 /// Samples of like change.
@@ -180,7 +181,7 @@ fn group(points: &[[f64; 2]]) -> Option<Group> {
     let count = real(points.len());
     let mean = [0, 1].map(|k| points.iter().map(|point| point[k]).sum::<f64>() / count);
     let squares: f64 = points.iter().map(|point| (point[1] - mean[1]).powi(2)).sum();
-    let half = 1.96 * (squares / (count * (count - 1.0))).sqrt();
+    let half = NORMAL_QUANTILE * (squares / (count * (count - 1.0))).sqrt();
     half.is_finite().then_some(Group { mean, half })
 }
 

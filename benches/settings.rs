@@ -1,4 +1,4 @@
-//! Which answers hang on a setting: the ten most influential ones times and over 1.5, on twenty
+//! Which answers depend on a setting: the ten most influential ones times and over 1.5, on twenty
 //! short drives of the independent ground.
 //!
 //! `settings [--cases N] [--of PATH,PATH,...]` prints a table: how many answers change, and which.
@@ -25,8 +25,8 @@ const FACTOR: f64 = 1.5;
 const RUNS: usize = 3;
 const RUN_TIME: f64 = 30.0;
 
-/// Settings that most answers hang on: what a claim must reach, what makes one answer of two, what
-/// is searched, and what residuals weigh.
+/// Settings that most answers depend on: what a claim must reach, what makes one answer of two,
+/// what is searched, and what residuals weigh.
 const MAIN_SETTINGS: [&str; 10] = [
     "verdict.max_p",
     "verdict.min_ln_bayes_factor",

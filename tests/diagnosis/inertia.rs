@@ -142,7 +142,7 @@ fn signatures_of_laws_of_the_slip_speed_know_the_answer_to_acceleration() {
     }
 }
 
-/// Laws of the shear stress that hang on the slip.
+/// Laws of the shear stress that depend on the slip.
 const SLIP_LAWS: [&str; 4] = [
     "stribeck-friction:excess=0.35,speed_m_per_s=0.08",
     "stribeck-friction:excess=0.35,speed_m_per_s=0.2",
@@ -181,7 +181,7 @@ fn friction_that_grows_with_the_slip_is_named_where_its_level_is_known() {
 
 /// A centre of gravity that is filed wrong and a sensor beside it move the constant ICRs alike, but
 /// mass pulls where it is with every start and stop. Taken for the sensor's, 1 cm would be noise of
-/// a heading that walks, or friction that hangs on the slip.
+/// a heading that walks, or friction that depends on the slip.
 #[test]
 fn mass_tells_where_it_is_beside_a_mount() {
     const CONCEALED_EFFECT: &str = "sensor-lever-arm:x_m=0.2,y_m=0.2";

@@ -1,4 +1,4 @@
-//! A law that no catalogue has gets a form that hangs on what the law hangs on.
+//! A law that no catalogue has gets a form that depends on what the law depends on.
 
 use trackdyn_diagnose::{Diagnosis, DiagnosisFile, Status};
 use trackdyn_drive::ScheduleKind;

@@ -28,8 +28,8 @@ pub struct Missing {
 }
 
 impl Missing {
-    /// What is not in the catalogue and acts like the effects that are named, a sentence for each;
-    /// empty where nothing is known to.
+    /// Causes outside the catalogue that act like the named effects, a sentence for each; empty
+    /// where none is known.
     pub fn resembling(&self) -> String {
         let named = self.verdict.one_of.iter().filter(|_| self.kind != Kind::Constant);
         let sentences = named.map(|effect| effect.card().resembles);

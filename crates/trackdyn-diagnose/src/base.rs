@@ -108,7 +108,7 @@ fn with_clock(hypothesis: &Hypothesis, evidence: &Weighted) -> Hypothesis {
     hypothesis.clone()
 }
 
-/// The hypothesis with none of the delay of poses that the vehicle file does not have.
+/// The hypothesis without the effects that delay poses, unless the vehicle file has them.
 pub fn without_clock(hypothesis: &Hypothesis, filed: &Hypothesis) -> Hypothesis {
     let delays = |effect: &ActiveEffect| single(&hypothesis.vehicle, effect).sensor().delay != 0.0;
     let late = hypothesis.effects.iter().filter(|effect| delays(effect));
@@ -167,8 +167,8 @@ fn own_share(fit: &Fit, base: usize) -> f64 {
     equations.groups[0].iter().map(share).fold(1.0, f64::min)
 }
 
-/// Which numbers of a vehicle absorb ICR offsets. Constant ICRs do not tell; effects that act at
-/// the centre of gravity do.
+/// Which numbers of a vehicle absorb ICR offsets. Constant ICRs cannot decide this; effects that
+/// act at the centre of gravity can.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Calibration {
     /// Friction ratio and centre of gravity: no offset is left.
@@ -202,8 +202,8 @@ impl Calibration {
         Some(Hypothesis { vehicle, offset: off.into(), cog_moved, ..hypothesis.clone() })
     }
 
-    /// A vehicle whose constant ICRs are the wanted ones, by Newton's method from a vehicle on;
-    /// `spin` gives those of a vehicle. None where no such vehicle exists.
+    /// The vehicle with the wanted constant ICRs, by Newton's method from another vehicle. `spin`
+    /// gives the constant ICRs of a vehicle. None where no such vehicle exists.
     fn absorbed(
         self,
         from: &Vehicle,
@@ -264,11 +264,11 @@ struct Absorbed {
 }
 
 /// Gives a vehicle file, with its effects, the constant ICRs of a hypothesis at the friction level
-/// `level`: by friction and centre of gravity. Those of the hypothesis, without effects, are taken
-/// where no vehicle has these ICRs.
+/// `level`: by friction and centre of gravity. Where no vehicle with these effects has these ICRs,
+/// the vehicle is calibrated without effects.
 ///
-/// What moves both ICRs alike by more than `tolerated` (m) was left by a fit that found no centre
-/// of gravity for it. From a pose sensor at d, ICRs are seen moved by -d, so it is moved instead.
+/// An offset common to both ICRs that exceeds `tolerated` (m) is one for which the fit found no
+/// centre of gravity. A pose sensor at d sees the ICRs moved by -d, so the sensor is moved instead.
 pub fn correct_constants(
     file: &mut VehicleFile,
     hypothesis: &Hypothesis,
@@ -391,8 +391,8 @@ mod tests {
         assert!(off.norm() < 1e-6, "{off}");
     }
 
-    /// A fit that leaves an offset found no centre of gravity for what is common to both ICRs; seen
-    /// from the sensor, they are where the fit has them.
+    /// A fit that leaves an offset found no centre of gravity for the offset common to both ICRs.
+    /// Seen from the moved sensor, the ICRs are where the fit has them.
     #[test]
     fn what_the_fit_leaves_to_no_centre_of_gravity_is_left_to_the_sensor() {
         let mut file = VehicleFile::auriga_alpha();

@@ -48,7 +48,8 @@ pub struct Signature {
 }
 
 impl Catalogue {
-    /// The signatures whitened by evidence, which were by other evidence of the same samples.
+    /// These signatures whitened by evidence; before, they were whitened by other evidence of the
+    /// same samples.
     pub fn whitened_by(mut self, evidence: &Weighted, before: &Weighted) -> Self {
         self.entries.par_iter_mut().for_each(|(_, signatures)| {
             for signature in signatures {
@@ -222,8 +223,8 @@ fn shapes(parameter: &Parameter, ratio: f64) -> Vec<f64> {
     tried
 }
 
-/// Spacing of the values that are tried: of a place its extent, or that of the driving; of a shape
-/// logarithmic; of a time in driving time.
+/// Spacing of the values that are tried. For a place it is its extent, or that of the driving; for
+/// a shape it is logarithmic; for a time it is in driven time.
 fn spacing(parameter: &Parameter, extent: Option<f64>, evidence: &Evidence) -> f64 {
     match parameter.role {
         Role::Size { .. } => 0.0,
@@ -325,8 +326,8 @@ mod tests {
         }))
     }
 
-    /// A robot that accelerates all the time answers each effect otherwise than a steady one. What
-    /// instruments change of the acceleration itself is left to the fit.
+    /// A robot that accelerates all the time responds to each effect differently from one in steady
+    /// motion. Changes of the acceleration itself by instruments are left to the fit.
     #[test]
     fn a_signature_beside_inertia_is_the_change_of_a_whole_simulation() {
         let evidence = restless();

@@ -2,8 +2,8 @@
 //! robot's.
 //!
 //! Each set is diagnosed against the same vehicle file, with its own noise, clock, instruments and
-//! constants. All effects that either has are then fitted to both, and a claim is about the
-//! difference of their sizes: what both have alike is none, even if the file lacks it.
+//! constants. All effects that either has are then fitted to both. A claim is about the difference
+//! of their sizes: what both sets have in common is no difference, even if the file lacks it.
 
 mod bayes;
 mod choice;
@@ -175,8 +175,9 @@ pub fn compare(
     })
 }
 
-/// Smallest differences of each size: the variances of both sets add. What acts as constant ICRs
-/// shows in these, beside which it would have to show in a diagnosis.
+/// Smallest difference of each size that would have shown: the variances of both sets add. An
+/// effect that acts as constant ICRs shows in a comparison by those ICRs. A diagnosis shows it only
+/// by what it does beside them.
 fn smallest(diagnoses: &[Diagnosis; 2], by_icrs: &[Smallest]) -> Vec<Smallest> {
     let of = |diagnosis: &Diagnosis| -> BTreeMap<(EffectId, usize), Option<f64>> {
         let detectable = diagnosis.limits.detectable.iter();
@@ -206,20 +207,21 @@ impl Comparison {
         }
     }
 
-    /// Whether the second set's own model explains its runs better than the first set's with what
-    /// is named, by more than the form of laws and what both leave alike.
+    /// Whether the second set's own model explains its runs better than the first set's model with
+    /// the named differences, by more than [`Self::closer_tolerated`].
     pub fn is_closer_apart(&self) -> bool {
         self.closer.left > self.closer_tolerated()
     }
 
-    /// Twice the log-likelihood by which the second set's own model may explain its runs better:
-    /// by the form of laws and of what both sets depart by alike.
+    /// Largest excess of twice the log-likelihood by which the second set's own model may explain
+    /// its runs better. The form of the laws, what both sets have in common, and the noise explain
+    /// as much.
     pub fn closer_tolerated(&self) -> f64 {
         self.beside_named.tolerated
     }
 
-    /// Whether all that is left is that the second set's own model is better: no symmetry tells
-    /// where.
+    /// Whether the second set's own model is better although no symmetry differs: the comparison
+    /// cannot say where.
     pub fn is_not_told_apart(&self) -> bool {
         self.is_closer_apart() && self.left().is_empty()
     }

@@ -53,7 +53,8 @@ fn with_claims(
             corrected.effects.insert(effect.clone());
         }
     }
-    // Constants that are right may have been those of other numbers than the claimed ones.
+    // Even where no constant is claimed, the claimed effects may move the ICRs away from those of
+    // the fit.
     if !constants.is_empty() || is_elsewhere(&corrected, hypothesis, tolerated) {
         correct_constants(&mut corrected, hypothesis, level, tolerated);
     }

@@ -21,7 +21,7 @@ use trackdyn_estimate::odometry::Estimate;
 use trackdyn_estimate::odometry::intervals::{Sums, size};
 use trackdyn_model::VehicleFile;
 
-/// A length that is reached but for rounding.
+/// Share of a length at which it counts as reached, for rounding.
 const ROUNDING: f64 = 1.0 - 1e-9;
 
 /// Drift with a vehicle as filed and as corrected.
@@ -53,7 +53,7 @@ impl Drift {
     /// table of steady points, or where one has no motion in time.
     ///
     /// A piece crosses no gap, and no sample that is lost or has no motion. Pieces are as long as
-    /// their fewest number allows.
+    /// possible while there are enough of them.
     pub fn of(evidence: &Weighted, files: [&VehicleFile; 2]) -> Self {
         if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
             return Self::default();

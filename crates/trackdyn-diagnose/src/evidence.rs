@@ -52,8 +52,8 @@ pub(crate) fn run_ranges(samples: &[Sample]) -> impl Iterator<Item = Range<usize
     ranges(samples.chunk_by(|a, b| a.run == b.run))
 }
 
-/// The samples from each place that was seen to the next, by their indices: one each, but where a
-/// gyroscope tells the yaw between.
+/// The samples from each measured place to the next, by their indices: one sample, or several where
+/// a gyroscope measures the yaw in between.
 pub(crate) fn between_places(samples: &[Sample]) -> impl Iterator<Item = Range<usize>> + '_ {
     ranges(samples.chunk_by(|a, b| b.follows && !a.has_place[1]))
 }

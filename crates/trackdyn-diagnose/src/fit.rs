@@ -107,7 +107,7 @@ pub fn derivatives(
         .collect()
 }
 
-/// Whether an unknown leaves the balance of forces alone: offsets, sensors, gains and lags.
+/// Whether an unknown does not enter the balance of forces: offsets, sensors, gains and lags.
 fn is_outside(hypothesis: &Hypothesis, unknown: Unknown) -> bool {
     match unknown {
         Unknown::Offset(_) => true,
@@ -228,9 +228,9 @@ impl Fit {
     /// A better fit, whose runs begin in the motions that suit its own hypothesis; none where there
     /// is none, or the evidence has stationary beginnings.
     ///
-    /// The evidence allows for beginnings as they suit another hypothesis, to first order. Here,
-    /// unknowns are fitted beside what beginnings may explain of this one, and beginnings beside
-    /// the unknowns, in turn. The objective remains that of the evidence.
+    /// To first order, the evidence allows for beginnings that suit another hypothesis. Here, the
+    /// unknowns and the beginnings of this hypothesis are fitted in turn, each beside the other.
+    /// The objective remains that of the evidence.
     pub fn with_own_starts(&self, evidence: &Weighted) -> Option<Self> {
         evidence.starts()?;
         let begun = |fit: &Self| starts::fitted(evidence, &fit.hypothesis, Some(&fit.mechanics));

@@ -10,8 +10,9 @@
 //! mean square, and c_j normal with variance τ²/n. A law that breaks neither S nor P has no other
 //! form at other speeds; ε varies with direction, side and time only where the law itself does.
 //!
-//! A size in the vehicle file that is not fitted is known to a part. The form of such a law is what
-//! is at right angles to its size: a wrong size must not pass for another form.
+//! A size in the vehicle file that is not fitted is known only to a share. So the form of such a
+//! law is what is orthogonal to the change by its size: a wrong size must not pass for another
+//! form.
 //!
 //! The c_j are factors of columns d b_j beside those of the unknowns. τ is none or one of a few
 //! values, all equally probable: the evidence is the mean over them, and the most probable value
@@ -382,7 +383,7 @@ mod tests {
         assert!(whole > 3.0 * exact && whole > 0.02, "{exact} {whole}");
     }
 
-    /// A law of the vehicle file is there with twice its size: that is no other form.
+    /// A law of the vehicle file acts with twice its filed size, which is no other form.
     #[test]
     fn a_wrong_size_in_the_file_is_no_form() {
         let law = EffectId::of("viscous-friction").expect("an effect");

@@ -1,17 +1,16 @@
 //! Noise estimation from the residuals that driving cannot explain.
 //!
 //! # Law
-//! Fitted away are the base (constant ICRs, encoders, pose sensor); the contrasts of
-//! [`locate`](crate::locate), by which ICRs vary with speed, direction, manoeuvre, side, heading,
-//! place, time and change of speed; ICRs that vary with the speed of turning; the response to
-//! acceleration; and, with inertia, where the masses are. The remaining residual r is noise
-//! ([`SegmentNoise`]): white noise R of each pose, shared by neighbouring segments, errors of its
-//! stamp, which displace it along the motion, a random walk q within each segment, and a wandering
-//! heading of the sensor that turns all later segments of a run.
+//! All that driving could explain is fitted away: the base (constant ICRs, encoders, pose sensor);
+//! the contrasts of [`locate`](crate::locate), by which ICRs vary with speed, direction, manoeuvre,
+//! side, heading, place, time and change of speed; ICRs that vary with the speed of turning; the
+//! response to acceleration; and, with inertia, where the masses are. The remaining residual r is
+//! noise ([`SegmentNoise`]): white noise R of each pose, shared by neighbouring segments, errors of
+//! its stamp, which displace it along the motion, a random walk q within each segment, and a
+//! wandering heading of the sensor that turns all later segments of a run.
 //! [`likely_noise`](trackdyn_estimate::likely_noise) finds its variances, corrected for the degrees
-//! of freedom of the fit, ½ ln det(Xᵀ V⁻¹ X), X the fitted columns:
-//! without that a walk, which is slow, would vanish into slow contrasts. The correction is taken as
-//! linear in the log variances.
+//! of freedom of the fit, ½ ln det(Xᵀ V⁻¹ X), X the fitted columns: without that a walk, which is
+//! slow, would vanish into slow contrasts. The correction is taken as linear in the log variances.
 //!
 //! Physics that contrasts cannot represent is at first taken for a walk. Where a hypothesis
 //! explains more, noise is estimated again beside it, and accepted if the variance summed over a
@@ -149,8 +148,9 @@ fn run_time(evidence: &Weighted) -> Option<f64> {
     (runs > 0).then(|| time / real(runs))
 }
 
-/// Samples that share an outlying pose: the one that ends there has a large residual, both composed
-/// have a small one. A pose whose place was not seen joins what is before and after it.
+/// Samples that share an outlying pose: the sample that ends there has a large residual, but both
+/// samples joined have a small one. Samples are also joined across a pose whose place was not
+/// measured.
 fn outliers(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) -> Vec<usize> {
     let mut white = left.to_vec();
     evidence.whiten(&mut white);

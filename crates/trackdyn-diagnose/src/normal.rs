@@ -114,7 +114,8 @@ pub fn effective(squares: impl Iterator<Item = f64>) -> f64 {
     if of_squares > 0.0 { sum * sum / of_squares } else { 0.0 }
 }
 
-/// ln of the mean of probabilities that are given by their ln; what is no number has none.
+/// ln of the mean of probabilities that are given by their ln; an ln that is not finite counts as
+/// probability 0.
 pub fn ln_mean(ln: impl Iterator<Item = f64> + Clone) -> f64 {
     let numbers = ln.clone().filter(|ln| ln.is_finite());
     let most = numbers.clone().fold(f64::MIN, f64::max);

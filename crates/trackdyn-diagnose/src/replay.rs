@@ -9,8 +9,9 @@ use trackdyn_core::Pose;
 use trackdyn_model::{Sensor, VehicleFile};
 
 /// The motion of every sample with a vehicle file, seen from its beginning; none where it has no
-/// motion in time. Where the file says nothing of the clock, poses come late by what suits its
-/// turning best: the recording's own offset holds the time by which inertia answers, too.
+/// motion in time. Where the file states no delay, poses come late by the time that suits its
+/// turning best. The recording's own offset does not serve: it also includes the time by which
+/// inertia delays the robot.
 pub fn motions(evidence: &Evidence, file: &VehicleFile) -> Option<Vec<Pose>> {
     let hypothesis = Hypothesis::filed(file, &evidence.settings().prior);
     let mechanics = Mechanics::new(&hypothesis, evidence);

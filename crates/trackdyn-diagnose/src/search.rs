@@ -125,7 +125,7 @@ impl Search {
     }
 
     /// A hypothesis whose laws differ in form by as much as those of `whole`, which has more
-    /// effects: what is missing would look like other forms.
+    /// effects. If its own forms were found, the missing effects would look like other forms.
     pub fn in_forms_of(&self, whole: &Found, found: Found) -> Found {
         let deviation = whole.forms.deviation;
         let forms = if deviation > 0.0 {
@@ -171,8 +171,8 @@ impl Search {
         })
     }
 
-    /// Refits of the screened candidates, best first. What a screen promises of a law that is not
-    /// linear is no measure: a high centre of gravity kept eight times as much.
+    /// Refits of the screened candidates, best first. The screened gain says little of a nonlinear
+    /// law: a refit with a high centre of gravity gained eight times as much.
     fn singles(
         &self,
         beside: &Found,

@@ -12,9 +12,9 @@
 //! ```
 //!
 //! found by Gauss-Newton steps that are halved until they help; z are the whitened residuals of its
-//! samples and ρ is Huber's loss. What is then left unknown of a is noise that the samples of the
-//! run share ([`Weighted::allowing_for_starts`]). It is the same for all hypotheses: each forgoes
-//! what the beginnings may explain.
+//! samples and ρ is Huber's loss. What remains unknown of a is noise that the samples of the run
+//! share ([`Weighted::allowing_for_starts`]). This noise is the same for all hypotheses, so none
+//! gains by what the beginnings may explain.
 
 use crate::equations::Column;
 use crate::evidence::{Evidence, run_ranges};
@@ -235,8 +235,7 @@ mod tests {
         assert!(found < 1e-3 * stationary, "{found} {stationary}");
     }
 
-    /// Beginnings that suit a robot with a lag, which is not there, serve the true hypothesis
-    /// badly.
+    /// Beginnings that were fitted beside a lag that does not exist suit the true hypothesis badly.
     #[test]
     fn a_hypothesis_begins_its_runs_as_suits_it() {
         let inertia = ["yaw-inertia:strength=1,gyration_m=0.3", "centripetal"];

@@ -184,11 +184,11 @@ struct Solved {
     starts: Vec<Option<Near>>,
 }
 
-/// Distance of the nodes that are solved first, as a sample: every eighth.
+/// Stride through the nodes that are solved first, as a sample.
 const SAMPLE_STRIDE: usize = 8;
 
-/// Largest share of the sample without a motion: with more, no other node is tried, for a search
-/// takes longest where no forces balance.
+/// Largest share of the sample that may have no motion. Above it the other nodes are not tried: a
+/// search takes longest where no forces balance.
 pub const MAX_UNSOLVED_SAMPLE_SHARE: f64 = 0.5;
 
 impl Solved {

@@ -43,9 +43,10 @@ pub struct Level {
 ///
 /// The largest of three variances counts: that by the noise, and two jackknife variances (B − 1)/B
 /// Σ (θ₋ᵦ − θ)², with blocks or whole runs left out, which need no noise model. A jackknife counts
-/// where several groups determine the unknown: where one does, it measures its absence, not its
-/// scatter. An interval ends where the profile likelihood (all other unknowns refitted) has fallen
-/// as far as a parabola with that variance would at Student's quantile.
+/// only where several groups determine the unknown. Where one group does, leaving it out shows the
+/// lack of data and not a scatter. An interval ends where the profile likelihood (all other
+/// unknowns refitted) has fallen as far as a parabola with that variance would at Student's
+/// quantile.
 ///
 /// # Sources
 /// The block jackknife: Bell, McCaffrey, Survey Methodology 28(2), 2002 (CR3). Profile likelihood:
@@ -109,7 +110,7 @@ impl<'a> Uncertainty<'a> {
         Self { search, fit, spread, halves }
     }
 
-    /// How well the recording tells any number that hangs on the unknowns.
+    /// How well the recording determines any number that depends on the unknowns.
     pub(crate) fn spread(&self) -> &Spread {
         &self.spread
     }

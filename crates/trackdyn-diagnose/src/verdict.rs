@@ -103,8 +103,8 @@ pub fn judge(basis: &Basis, best: &Found, effects: &[EffectId]) -> Result<Vec<Ve
     effects.iter().copied().map(of).collect()
 }
 
-/// Refuses an effect that gains too little against none: against its rivals it gains no more. None
-/// where it gains enough.
+/// Refuses an effect that gains too little against the hypothesis without it: it cannot gain more
+/// against its rivals. None where it gains enough.
 fn weak(search: &Search, best: &Found, effect: EffectId) -> Option<Verdict> {
     let without = search.without(best, effect);
     let support = Support {
@@ -153,8 +153,8 @@ fn at_limit(fit: &Fit, unknown: Unknown, effect: EffectId) -> Option<Refusal> {
         .then_some(Refusal::AtLimit { size: unknown, value })
 }
 
-/// Refuses what errors in the laws of the vehicle file could cause; none where it is more than
-/// that.
+/// Refuses an effect that errors in the laws of the vehicle file could cause; none where it is
+/// larger than that.
 ///
 /// Such laws are known to a share of their size: a radius of gyration is hardly ever measured.
 fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<Refusal> {
@@ -181,8 +181,8 @@ fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<Re
     })
 }
 
-/// The verdict, refused where the intervals of all its sizes include the neutral size, or that of
-/// its place is wider than the area that was driven.
+/// The verdict. It is refused where the intervals of all its sizes include the neutral size, or
+/// where the interval of its place is wider than the area driven.
 pub fn unless_unsure(verdict: Verdict, intervals: &[Interval], evidence: &Evidence) -> Verdict {
     let places = sizes(verdict.effect).into_iter();
     let sizes: Vec<&Interval> = places

@@ -50,7 +50,7 @@ type Twists = Arc<[[Matrix3<f64>; 2]]>;
 #[derive(Clone)]
 struct Segments {
     noise: SegmentNoise,
-    /// Which have no weight and share no pose with their neighbours.
+    /// Which segments are lost: they have no weight and share no pose with their neighbours.
     lost: Arc<[bool]>,
     twists: Twists,
     /// Change of each sample by each axis of the twist with which its run begins, times the prior

@@ -26,8 +26,8 @@ pub struct Blocks {
 }
 
 impl Blocks {
-    /// The usual number of runs from which on each is a block. The scatter of fewer blocks is a
-    /// poor variance.
+    /// Usual least number of runs for which each run is a block. The scatter of fewer blocks is a
+    /// poor estimate of a variance.
     pub const MIN_WHOLE_RUNS: usize = 24;
 
     /// Blocks of these runs, whose indices ascend: each run a block where there are

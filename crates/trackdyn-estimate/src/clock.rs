@@ -6,17 +6,17 @@
 //! constant yaw rate.
 //!
 //! The correlation of Δψ and D (b removed) is searched for its peak: first where offsets usually
-//! are, from there on uphill, and where no clear peak is found, as far as it takes. The peak itself
-//! is not the estimate: encoder noise averages better where D cuts readings in two, which pulls the
-//! peak by up to half a reading. From there on, the residual is made orthogonal to D before and
-//! after the interval (lead minus lag for τ, lead plus lag for k, Δt for b). These instruments
+//! are, then uphill from there, and ever farther where no clear peak is found. The peak itself is
+//! not the estimate: encoder noise averages better where D cuts readings in two, which pulls the
+//! peak by up to half a reading. So, from the peak on, the residual is made orthogonal to D before
+//! and after the interval (lead minus lag for τ, lead plus lag for k, Δt for b). These instruments
 //! share no reading with Dᵢ, so that white encoder noise drops out.
 //!
 //! # Assumes
-//! k may be any constant: no kinematic model is needed. A belt that lags behind its encoder shows
-//! as a clock offset just so; the two are told apart elsewhere, if at all. τ goes with readings
-//! that are held ([`hold`](trackdyn_recording::hold)): where a reading stands for the time before
-//! or around its stamp, the delay itself is a whole or half an interval of the readings longer.
+//! k may be any constant: no kinematic model is needed. A belt that lags behind its encoder looks
+//! like a clock offset; the two are separated elsewhere, if at all. τ goes with readings that are
+//! held ([`hold`](trackdyn_recording::hold)): where a reading stands for the time before or around
+//! its stamp, the delay itself is a whole or half an interval of the readings longer.
 //!
 //! # Sources
 //! Instrumental variables: Wooldridge, Econometric Analysis of Cross Section and Panel Data, 2nd
@@ -64,7 +64,8 @@ pub enum Clock {
     Unknown {
         /// Why.
         reason: String,
-        /// The best correlation of encoders and poses, where it is too small to tell.
+        /// The best correlation of encoders and poses, where it is too small to determine an
+        /// offset.
         correlation: Option<f64>,
     },
 }
@@ -74,8 +75,8 @@ impl Clock {
     /// there is too little turning to tell.
     ///
     /// # Errors
-    /// [`Error::ClockFar`] and [`Error::Swapped`]: what shows that no offset of the search is right
-    /// is no reason to work with zero.
+    /// [`Error::ClockFar`] and [`Error::Swapped`]: they show that no offset of the search is right,
+    /// and zero is one of these.
     pub fn of(
         recording: &Recording,
         given: Option<f64>,
@@ -223,7 +224,7 @@ fn highest(intervals: &Intervals, by: &Settings) -> Result<Peak, usize> {
     Ok(farthest(intervals, by).filter(farther).unwrap_or(best))
 }
 
-/// Fewest of so many pose intervals that a far offset may use.
+/// Least number of pose intervals, of so many, that a far offset must use.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of them")]
 fn share(count: usize, by: &Settings) -> usize {
     ((by.min_share * real(count)) as usize).max(by.min_intervals)

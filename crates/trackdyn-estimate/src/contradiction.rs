@@ -39,18 +39,20 @@ const MAX_EFFICIENCY: f64 = 0.97;
 /// beyond which no robot turns by its tracks, with twice the friction aside, 0.27.
 const MIN_EFFICIENCY: f64 = 0.25;
 
-/// α of encoders and wheel radii that are what their file says, and of tracks that hold.
+/// Range of α where encoders and wheel radii are as their file states and the tracks grip.
 const ALPHAS: [f64; 2] = [0.8, 1.25];
 
-/// Largest logarithm of the ratio of both α where a unit may be wrong, which is one of both sides.
+/// Largest logarithm of the ratio of both α at which a unit may be wrong: a unit is that of both
+/// sides.
 const MAX_LN_UNLIKE: f64 = 0.1;
 
 /// Largest ratio of the upper to the lower quartile of ways of tracks per way of poses where a unit
 /// may be wrong: slip, as on ice, varies by more.
 const MAX_SPREAD_OF_UNITS: f64 = 1.3;
 
-/// Part by which track speeds are off that tyres and pitches leave; and the ratio of residuals
-/// without and with factors that slip does not reach: on real robots it is 1.2 at most.
+/// Least errors of track speeds that count as more than those of tyres and pitches: the deviation
+/// of a factor from 1, and the ratio of the residuals without factors to those with them. By slip
+/// of real robots that ratio is 1.2 at most.
 const MIN_FACTOR: f64 = 0.03;
 const MIN_RATIO_BY_FACTORS: f64 = 2.0;
 
@@ -65,7 +67,7 @@ const MAX_WAY_LEFT: f64 = 0.3;
 const MIN_MOUNT: f64 = 0.17;
 
 settings_group! {
-    /// By what poses are taken for computed from the tracks: they show no slip.
+    /// When poses count as computed from the tracks: they show no slip.
     Settings {
         /// Largest part that is left of the turning and of the ICR distance.
         max_left: f64 = 2e-3, "", [0.0, 0.1],

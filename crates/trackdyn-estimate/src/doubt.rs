@@ -3,7 +3,7 @@
 use crate::parameters::Parameters;
 use crate::sensor::Nuisance;
 
-/// Largest standard deviation that is told: more says no more.
+/// Largest standard deviation that a message states: a larger one says no more.
 const MAX_SHOWN_DEVIATION: f64 = 100.0;
 
 /// Why a recording does not determine a parameter.

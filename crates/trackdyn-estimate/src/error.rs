@@ -146,7 +146,8 @@ impl Error {
         Self::TooFewSegments { found, needed: 4 * parameters, parameters, each }
     }
 
-    /// Whether the recording is sound and only does not tell what was asked: other driving would.
+    /// Whether the recording is sound but does not determine what was asked, as other driving
+    /// would.
     pub fn is_no_result(&self) -> bool {
         matches!(
             self,

@@ -15,10 +15,10 @@
 //!
 //! # Assumes
 //! The noise of the gyroscope is white: the random walk of its integral follows from the scatter of
-//! its readings, at stand-still where the robot stands. What else grows with time is of the poses,
-//! and so is what stays bounded: their stamps, their filter, their map. The gyroscope turns with
-//! the body, about the vertical. Accelerometers are not used: a tilt of a degree shows as
-//! 0.17 m/s², more than most of what tracks do to a robot.
+//! its readings, at stand-still where the robot stands. All other errors are those of the poses
+//! (their stamps, their filter, their map), whether they grow with time or stay bounded. The
+//! gyroscope turns with the body, about the vertical. Accelerometers are not used: a tilt of a
+//! degree shows as 0.17 m/s², more than most of what tracks do to a robot.
 //!
 //! # Sources
 //! Rauch, Tung, Striebel, AIAA Journal 3(8), 1965 (smoother); IEEE Std 952 (errors of gyroscopes).
@@ -85,7 +85,7 @@ pub enum Unfit {
         /// As many are needed.
         needed: usize,
     },
-    /// Too few poses in a row to tell errors of the poses from its own.
+    /// Too few poses in a row to separate errors of the poses from its own.
     #[error(
         "at most {longest} poses in a row have readings of the gyroscope around them, too few to \
          judge it by: take longer runs"

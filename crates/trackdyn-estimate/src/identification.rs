@@ -94,7 +94,8 @@ pub struct Fit {
 pub enum Weights {
     /// The noise that the recording shows at rest or in steady driving, or that its maker states.
     Noise(SegmentNoise),
-    /// What constant ICRs leave, which bounds the noise from above, where it shows in no other way.
+    /// The residuals of constant ICRs, which bound the noise from above, where it shows in no other
+    /// way.
     Residuals(SegmentNoise),
     /// All segments count alike: constant ICRs are not found either.
     Equal,

@@ -23,9 +23,9 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// Student's interval by the jackknife: `without` are the numbers with one block left out each,
-    /// one more than there are degrees of freedom. None with fewer than two blocks. For the mean
-    /// over blocks of equal size it is Student's interval over the block means.
+    /// Student's interval by the jackknife. `without` holds the number with each block left out in
+    /// turn: one value more than there are degrees of freedom. None with fewer than two blocks. For
+    /// the mean over blocks of equal size it is Student's interval over the block means.
     ///
     /// θ ± t₀.₉₇₅(B − 1) σ, σ² = (B − 1)/B Σ (θ₋ᵦ − θ̄)²
     pub fn of_jackknife(value: f64, without: &[f64]) -> Option<Self> {
@@ -48,8 +48,8 @@ impl Interval {
         Self { value, deviation, low: value - half, high: value + half }
     }
 
-    /// This interval, of a number above 0, in the denominator: χ = L/(x_r − x_l) has its low end
-    /// where the distance has its high one, and no high end where that may be 0.
+    /// The interval of `numerator` over this number, which is above 0: χ = L/(x_r − x_l) has its
+    /// low end at the high end of the distance, and no high end where the distance may be 0.
     pub fn dividing(&self, numerator: f64) -> Self {
         let Self { value, deviation, low, high } = *self;
         Self {
@@ -60,7 +60,7 @@ impl Interval {
         }
     }
 
-    /// This interval, of a number that has a normal error of this standard deviation beside.
+    /// This interval, widened by an independent normal error of this standard deviation.
     #[must_use]
     pub fn with_error(&self, deviation: f64) -> Self {
         let Self { value, deviation: own, low, high } = *self;

@@ -25,8 +25,8 @@ use nalgebra::{DMatrix, DVector, Vector3};
 const SETTINGS: Settings =
     Settings { max_iterations: 100, settled_below: 1e-8, newton_below: 1e-4 };
 
-/// Largest last step, in standard errors of what is known best, of an iteration that counts as
-/// settled where it has not: beside outliers a step may go on to be small.
+/// Largest last step, in standard errors of what is known best, with which an iteration that did
+/// not settle still counts as settled: beside outliers, steps may stay small for ever.
 const MAX_OPEN_STEP: f64 = 0.01;
 
 /// What is fitted: kinematic parameters, and properties of the pose sensor beside them.

@@ -1,9 +1,10 @@
 //! How much of the motion constant ICRs leave unexplained.
 //!
-//! Medians over the segments that should move most by the fit: an outlier is no misfit, a wrong
-//! unit is. What the noise of the poses explains does not count. They are those that make up half
-//! of the motion: a robot that seldom turns shows its turning in few. They are chosen by the
-//! prediction: where the robot is slow, those with most observed motion are those with most noise.
+//! Medians over the segments that should move most by the fit. A median ignores an outlier but
+//! shows a wrong unit. What the noise of the poses explains does not count. These segments make up
+//! half of the motion, since a robot that seldom turns shows its turning in few. They are chosen by
+//! the prediction, since where the robot is slow, the segments with most observed motion are those
+//! with most noise.
 
 use crate::blocks::Blocks;
 use crate::observations::{Observation, Observations};
@@ -15,7 +16,7 @@ use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, NORMAL_FROM_MAD, median, quant
 /// Median of the length of two standard normal numbers, √(2 ln 2).
 const RAYLEIGH_MEDIAN: f64 = 1.177_410_022_515_475;
 
-/// Least way of a robot per way of its tracks that tells of the tracks.
+/// Least way of a robot per way of its tracks for which its way is judged.
 const MIN_WAY: f64 = 0.15;
 
 /// Part of `most` below which the way that a block leaves counts as well fitted.
@@ -174,8 +175,8 @@ fn left(rows: Vec<[f64; 3]>, of_noise: f64) -> f64 {
     }
 }
 
-/// Medians of the columns over the rows with most in the first one, which make up half of it; none
-/// of none.
+/// Medians of the columns over the rows with the largest first column, which together make up half
+/// of its sum; none without rows.
 ///
 /// They are a twentieth of the rows or more, so that outliers do not make up the half, and half of
 /// them at most.

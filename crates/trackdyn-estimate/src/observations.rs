@@ -20,7 +20,7 @@ pub struct Observations {
     pieces: Vec<Piece>,
     /// Clock offset at which they are cut, s.
     tau: f64,
-    /// How far the clock offset may move, s: readings are there for it.
+    /// How far the clock offset may move, s: the readings reach as far.
     tau_margin: f64,
     /// Readings of each run.
     tracks: Arc<[Vec<TrackSample>]>,

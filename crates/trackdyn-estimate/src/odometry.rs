@@ -3,10 +3,10 @@
 //! - [`parameter_set`]: what turns track speeds into motion: a kinematics file, the ideal drive, or
 //!   the forces on a vehicle.
 //! - [`replay()`]: the path that a parameter set predicts from the track speeds of a run.
-//! - [`in_time`]: the same by the forces on a vehicle.
+//! - [`in_time`]: the path that the forces on a vehicle predict.
 //! - [`stretch`]: pieces of a run over a distance or a time, and what was seen in them.
 //! - [`residual`]: observed minus predicted motion.
-//! - [`intervals`]: confidence intervals that know that neighbouring residuals are related.
+//! - [`intervals`]: confidence intervals that allow for correlated neighbouring residuals.
 //! - [`pose_error`]: relative and absolute pose errors as other tools define them.
 //! - [`comparison`]: all of it for several parameter sets on the same runs.
 //! - [`tum`]: paths as files.

@@ -1,23 +1,22 @@
 //! How the turning of the poses follows the track speeds over time.
 //!
 //! # Law
-//! Δψᵢ = Σⱼ cⱼ Dᵢ(τ + jδ) + a Fᵢ(τ) + b Δtᵢ + noise over times Δt of two seconds, where Dᵢ(τ) =
-//! ∫ (Vᵣ − Vₗ) dt and Fᵢ(τ) = ∫ (Vᵣ + Vₗ)/2 dt over the time moved back by τ, and jδ reaches three
-//! seconds either way; a takes up sides whose α differ. Whatever stands between track speeds and
-//! poses and keeps a constant speed as it is, leaves Σ cⱼ = 1/(x_r − x_l): a drivetrain that lags
-//! behind commands, a filter of the poses or of the speeds, stamps that
-//! jitter. A fit that knows a delay alone takes what these leave for slip: by one c₀, changes of
-//! speed that the poses show smoothed make x_r − x_l too large, and speeds that are smoothed make
-//! it too small. Where the two disagree, and the delays foretell blocks that they were not fitted
-//! to, the log has such a response. Track speeds that are weighted by it,
-//! Ṽ(t) = Σⱼ cⱼ V(t − jδ)/Σⱼ cⱼ, are those that the poses follow at once; segments are then as long
-//! as the times Δt, over which the response was found.
+//! Δψᵢ = Σⱼ cⱼ Dᵢ(τ + jδ) + a Fᵢ(τ) + b Δtᵢ + noise over times Δt of two seconds, where Dᵢ(τ) = ∫
+//! (Vᵣ − Vₗ) dt and Fᵢ(τ) = ∫ (Vᵣ + Vₗ)/2 dt over the time moved back by τ, and jδ reaches three
+//! seconds either way; a takes up sides whose α differ. Any element between track speeds and poses
+//! that passes a constant speed unchanged leaves Σ cⱼ = 1/(x_r − x_l): a drivetrain that lags
+//! behind commands, a filter of the poses or of the speeds, stamps that jitter. A fit by a delay
+//! alone takes what these leave for slip: with one c₀, changes of speed that the poses show
+//! smoothed make x_r − x_l too large, and speeds that are smoothed make it too small. The log has
+//! such a response where both fits disagree and the delays predict blocks that they were not fitted
+//! to. Track speeds that are weighted by it, Ṽ(t) = Σⱼ cⱼ V(t − jδ)/Σⱼ cⱼ, are those that the poses
+//! follow at once; segments are then as long as the times Δt, over which the response was found.
 //!
 //! # Assumes
-//! The response does not change within the log and hardly with the speed. What lies beyond three
-//! seconds is missed: the interval counts what half the reach misses. What a response leaves beyond
-//! noise is no filter's, as of tracks whose acceleration is limited: the interval counts it, and
-//! where it is large nothing is given.
+//! The response does not change within the log and hardly with the speed. A response beyond three
+//! seconds is missed; the interval includes what half the reach misses. What a response leaves
+//! beyond noise comes from no filter, but for example from tracks whose acceleration is limited.
+//! The interval includes it, and where it is large nothing is given.
 //!
 //! # Sources
 //! Distributed lags and their long-run multiplier: Greene, Econometric Analysis, 7th ed., chapter
@@ -56,13 +55,14 @@ const MIN_DIFFERENCE: f64 = 0.005;
 /// than through a filter leaves more.
 const MAX_LEFT: f64 = 0.01;
 
-/// This where the speeds are commands and delays gain by so many standard errors: tracks whose
-/// acceleration is limited leave it, and then x_r − x_l is off by some percent.
+/// [`MAX_LEFT`] where the speeds are commands and delays gain by so many standard errors. Tracks
+/// whose acceleration is limited leave more, and then x_r − x_l is off by some percent.
 const MAX_LEFT_BY_COMMANDS: f64 = 0.002;
 const MIN_ERRORS_WHERE_LEFT: f64 = 2.5;
 
-/// Least standard error of a distance by commands, as share of it: the response to steps of all
-/// sizes, which limits of acceleration make one for each size, leaves some tenths of a percent.
+/// Least standard error of a distance by commands, as share of it. Under limits of acceleration,
+/// steps of each size have a response of their own, and one response for all leaves some tenths of
+/// a percent.
 const ERROR_BY_COMMANDS: f64 = 0.002;
 
 /// Least part of the squares of D that is its own: with less, noise counts tenfold.
@@ -80,7 +80,7 @@ const BLOCKS_PER_UNKNOWN: usize = 2;
 /// How poses follow the track speeds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
-    /// x_r − x_l over seconds, m: whatever the response where delays gain, else at once.
+    /// x_r − x_l over seconds, m: for any response where delays gain, else by a delay alone.
     pub gap: Interval,
     /// x_r − x_l by a delay alone over the times of usual segments, m.
     pub gap_at_once: f64,
@@ -180,7 +180,7 @@ impl Response {
     }
 }
 
-/// What delays gain over one that is shifted in blocks that they were not fitted to, by the
+/// Gain of the delays over one that is shifted, in blocks that they were not fitted to: by the
 /// logarithm of what is left, in its standard errors.
 fn gain(one: &Fit, several: &Fit) -> f64 {
     let pairs = one.blocks.iter().zip(&several.blocks);

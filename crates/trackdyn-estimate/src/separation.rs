@@ -27,14 +27,14 @@ const MIN_TURNS: usize = 2;
 /// chance, and a hand with a watch does not time one to half a percent.
 const MIN_ERROR: f64 = 0.005;
 
-/// Turns from which on their scatter tells their error.
+/// Least number of turns whose scatter determines their error.
 const ENOUGH_TURNS: usize = 5;
 
 /// Least turning of a drive in all, rad: half a turn.
 const MIN_YAW: f64 = std::f64::consts::PI;
 
-/// Widest half of an interval, as share of the distance: a separation that is known less well makes
-/// odometry no better than a guess does.
+/// Largest half width of an interval, as share of the distance: with a separation that is known
+/// less well, odometry is no better than with a guess.
 const MAX_HALF_WIDTH: f64 = 0.25;
 
 /// Least share of the turning against the tracks that a refusal names as its reason, where no
@@ -109,8 +109,8 @@ impl Separation {
         self.gap.dividing(gauge)
     }
 
-    /// The distance where all yaw shares a relative error of this standard deviation, which no
-    /// scatter shows.
+    /// The distance, widened by a relative error of this standard deviation that all yaw shares. No
+    /// scatter shows such an error.
     #[must_use]
     pub fn with_yaw_scale(self, deviation: f64) -> Self {
         Self { gap: self.gap.with_error(deviation * self.gap.value), ..self }

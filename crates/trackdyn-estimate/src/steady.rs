@@ -6,9 +6,9 @@
 //! residuals (1.48 median absolute deviations), with Huber's loss.
 //!
 //! # Assumes
-//! Track speeds are known. Deviations of one point say nothing of those of others, or of those that
-//! share its left track speed, or of those that share its right one: intervals are the widest of
-//! the three jackknifes.
+//! Track speeds are known. Deviations are independent between points, or between groups of points
+//! with one left track speed, or between groups with one right track speed. Intervals are the
+//! widest of the jackknifes over these three.
 
 mod groups;
 mod lagging;
@@ -216,8 +216,8 @@ impl SteadyEstimate {
         })
     }
 
-    /// The larger standard deviation by both covariances: the jackknife knows nothing of a
-    /// parameter that no residual tells of.
+    /// The larger standard deviation by both covariances: the jackknife is blind to a parameter on
+    /// which no residual depends.
     fn deviation(&self, variance: impl Fn(&DMatrix<f64>) -> f64) -> f64 {
         larger_deviation([&self.covariance, &self.covariance_of_scatter].map(variance))
     }
@@ -269,8 +269,8 @@ impl SteadyEstimate {
     }
 }
 
-/// What the speeds of a table lack for these parameters; none where it does. How well it determines
-/// them is for the intervals to say.
+/// What the speeds of a table lack for these parameters; none where they lack nothing. The
+/// intervals show how well the table determines them.
 fn lacks(points: &[OperatingPoint], free: Free) -> Option<Doubt> {
     let moments = points.iter().fold(Matrix2::zeros(), |sum, point| {
         let speeds = Vector2::new(point.v_left, point.v_right);

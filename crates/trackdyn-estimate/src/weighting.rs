@@ -10,7 +10,7 @@ use trackdyn_recording::StatedNoise;
 #[derive(Clone, Debug)]
 pub enum Weighting {
     /// The cost (17): squared distances, with yaw errors turned into distances by a lever (m).
-    /// Segments count alike and apart from each other.
+    /// Segments have equal weights and count as independent.
     Distance {
         /// The lever, m.
         lever: f64,

@@ -48,7 +48,7 @@ impl Attitude {
         self.pitched_far += u64::from(is_pitched && upright < MIN_TILT_COSINE);
     }
 
-    /// How many poses are no robot's, where these are too many for single wrong ones, and which
+    /// How many poses no robot can have, where these are too many to be single errors, and which
     /// axes explain them.
     pub(crate) fn out_of_plane(&self) -> Option<(u64, Axes)> {
         let are_many = |count: u64| MAX_PORTION * count > self.all;

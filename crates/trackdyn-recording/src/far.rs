@@ -1,23 +1,24 @@
-//! Stamps that are far from all others, as before a clock was set.
+//! Stamps that are far from all others, such as those before a clock was set.
 
 use std::ops::Range;
 
-/// A gap of so many times all the rest of the stamps parts wrong stamps from right ones.
+/// Least ratio of a gap between stamps to the time that all other gaps take together. Such a gap
+/// separates wrong stamps from right ones.
 const MIN_RATIO: f64 = 100.0;
 
-/// Shortest rest that a gap is compared with, s.
+/// Shortest time that a gap is compared with, s.
 const MIN_REST: f64 = 1.0;
 
-/// One in so many stamps may be wrong.
+/// At most one stamp in so many may be wrong.
 const MAX_PORTION: usize = 10;
 
-/// Fewest stamps among which some can be told to be wrong.
+/// Fewest stamps among which wrong ones are sought.
 const MIN_STAMPS: usize = 20;
 
-/// What gaps part.
+/// How gaps divide the stamps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Parts {
-    /// The stamps that are right; few others or none are beside them.
+    /// The range of the right stamps; few others or none lie outside it.
     Main(Range<usize>),
     /// Many stamps lie on both sides of a gap.
     Several,

@@ -170,7 +170,7 @@ impl Table {
         }
     }
 
-    /// Reads on from a row that is none of data, to the end of the table or the next that is.
+    /// Reads on from a row without data to the next row with data, or to the end of the table.
     fn look_ahead(&mut self, ends: &mut Ends) -> Result<(), Error> {
         let line = self.line();
         let mut rows = vec![std::mem::take(&mut self.row)];

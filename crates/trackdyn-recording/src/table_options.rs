@@ -1,4 +1,4 @@
-//! What a user knows of tables of track speeds and poses that they do not say themselves.
+//! What a user knows of tables of track speeds and poses, and the tables do not state.
 
 use crate::Error;
 use crate::doubt::DoubtKind;

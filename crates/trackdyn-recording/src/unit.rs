@@ -145,8 +145,8 @@ pub(crate) fn error(ratio: f64) -> Option<f64> {
     nearest(size).map(|(unit, ..)| (size / unit).max(unit / size))
 }
 
-/// The options by which speeds are read that were taken for those of the tracks, and are so many
-/// times those of the poses, or by which poses are. Units of wheels need a radius.
+/// The options that read speeds in another unit, or poses: for speeds that were taken for those of
+/// the tracks and are so many times those of the poses. Units of wheels need a radius.
 pub fn remedy(ratio: f64) -> String {
     with_poses(ratio, of_speeds(ratio))
 }

@@ -93,7 +93,7 @@ fn names_that_no_controller_can_have_are_refused() {
         assert_eq!(error.setting(), Some("left_joints"));
         let message = error.to_string();
         assert!(message.starts_with("left_joints") && message.contains(part), "{message}");
-        // frames do not hang on wheels
+        // frames do not depend on wheels
         assert!(open().base_frame(None).is_ok());
     }
 }

@@ -4,9 +4,9 @@
 //! public: ours are of a simulated robot of the same mass, size, centre of gravity and paths. Goal:
 //! the paper's order of dead reckoning. The ideal drive is worst, a symmetric model is better, an
 //! asymmetric one better still, and α improve each. Met for the error of the position over a metre,
-//! in which every fault of a model shows. The yaw hangs on x_r - x_l and α alone, so that symmetric
-//! and asymmetric models share it (docs/validation.md). Conditions: identified from nine manual
-//! paths of 20 m, replayed on two others, eight seeds.
+//! in which every fault of a model shows. The yaw depends on x_r - x_l and α alone, so that
+//! symmetric and asymmetric models share it (docs/validation.md). Conditions: identified from nine
+//! manual paths of 20 m, replayed on two others, eight seeds.
 
 mod errors;
 mod localisation;

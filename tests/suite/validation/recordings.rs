@@ -10,7 +10,7 @@ use trackdyn_recording::{Recording, Run, RunList};
 
 /// All methods on a recording of a vehicle with this gauge, m; these fitted beside the ICRs.
 pub fn identified(recording: &Recording, gauge: f64, nuisances: &[Nuisance]) -> Identification {
-    // Least squares does not hang on the genetic algorithm.
+    // Least squares does not depend on the genetic algorithm.
     let genetic = GeneticOptions { generations: 1, ..GeneticOptions::default() };
     let options = Options { nuisances: nuisances.to_vec(), genetic, ..Options::new(gauge) };
     identify(recording, &options, &|_| ()).expect("enough segments")

@@ -29,7 +29,7 @@ const REQUEST: &str = "asked.toml";
 /// What a diagnosis leaves for a plan.
 const CORRECTED_VEHICLE: &str = "vehicle.corrected.toml";
 
-/// What the results in a folder hang on.
+/// What the results in a folder depend on.
 #[derive(Serialize, Deserialize)]
 struct Asked {
     /// The trial: SHA-256 of its answers.

@@ -1,7 +1,7 @@
 //! Time that was driven, without the pauses between runs.
 //!
-//! A change at a time shows only where the robot drove: pauses between runs, hours at times, hold
-//! no times to try.
+//! A change at some time shows only while the robot drives. So no times are tried in the pauses
+//! between runs, which may last hours.
 
 use crate::evidence::Evidence;
 use trackdyn_core::real;

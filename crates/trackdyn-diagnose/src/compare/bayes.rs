@@ -1,4 +1,4 @@
-//! Evidence of a number in two sets: none, one of them, the same in both, or two.
+//! Evidence for a number in two sets: in neither, in one of them, one size in both, or two sizes.
 //!
 //! # Law
 //! Each set knows the number as a normal likelihood N(l; θ, s²). With θ ~ N(m, p²) before:

@@ -28,8 +28,8 @@ pub(super) struct Claimed {
 pub(super) struct Choice {
     /// The effects, ascending.
     pub effects: Vec<EffectId>,
-    /// Those that are compared by their sizes. What constant ICRs may stand for is compared by the
-    /// ICRs: else one cause would stand for two differences.
+    /// Effects that are compared by their sizes. Effects for which constant ICRs may stand are
+    /// compared by the ICRs, so that one cause does not count as two differences.
     pub compared: Vec<EffectId>,
     /// The fit of each set: without the effects that it cannot show.
     pub fits: [Found; 2],
@@ -62,8 +62,8 @@ impl Choice {
         best.polished(sets, watch)
     }
 
-    /// The choice with each fit started once more from all numbers of the other one: what is alike
-    /// in both is a good start, and one of them may stand in a worse minimum.
+    /// The choice with each fit started once more from all numbers of the other one. One of them
+    /// may be in a worse minimum, and what both have in common is a good start.
     fn polished(self, sets: [&Examination; 2], watch: &Watch) -> Result<Self, Cancelled> {
         let again = |k: usize| -> Result<Found, Cancelled> {
             watch.go_on()?;
@@ -147,7 +147,7 @@ fn with_physics_of(other: &Hypothesis, own: &Hypothesis) -> Hypothesis {
         .fold(moved, |moved, there| moved.with_effect(there.clone()))
 }
 
-/// Whether an effect stands in the world: each set has its own.
+/// Whether an effect belongs to the world: each set has a world of its own.
 fn is_of_the_world(effect: EffectId) -> bool {
     let of_the_world =
         |role: Role| matches!(role, Role::Place { .. } | Role::Direction | Role::Time);

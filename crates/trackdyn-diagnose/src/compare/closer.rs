@@ -18,8 +18,9 @@ use trackdyn_model::VehicleFile;
 pub struct Closer {
     /// Drift of dead reckoning with the first set's model, and with what differs as in the second.
     pub drift: Drift,
-    /// Errors, in units of the noise, of the first set's model, of it with what differs as in the
-    /// second, and of the second set's own model. What does not differ is known by both sets.
+    /// Errors in units of the noise: of the first set's model, of that model with the differences
+    /// as in the second set, and of the second set's own model. Numbers that do not differ are
+    /// estimated from both sets.
     pub errors: [f64; 3],
     /// Whether the runs were held out.
     pub are_held_out: bool,
@@ -63,9 +64,9 @@ impl Closer {
     }
 }
 
-/// Refuses differences with which the first set's model predicts the second set hardly better:
-/// sizes that hang together may each look different, and explain nothing where one alone is.
-/// Returns the differences, and the model in which those that are claimed differ.
+/// Refuses differences with which the first set's model predicts the second set hardly better.
+/// Correlated sizes may each look different, although a change of one of them alone explains
+/// nothing. Returns the differences, and the model in which those that are claimed differ.
 ///
 /// The runs are those of the fit: there, differences that are right raise the log-likelihood by as
 /// much as the evidence that is asked of a claim.

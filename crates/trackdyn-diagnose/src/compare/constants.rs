@@ -27,8 +27,8 @@ fn class(sets: [&Examination; 2]) -> impl Iterator<Item = EffectId> {
     first.iter().copied().filter(|effect| second.contains(effect))
 }
 
-/// Effects of the class of constants that explain the difference of constant ICRs alone. All of the
-/// class, without sizes, where none does: then it takes several.
+/// Effects of the class of constants of which each explains the difference of constant ICRs by
+/// itself. Where none does, all of the class, without sizes: then several are needed.
 pub(super) fn members(sets: [&Examination; 2], group: &Group) -> Vec<Member> {
     let search = &sets[0].search;
     let vehicle = &search.base.as_filed.hypothesis.vehicle;
@@ -43,8 +43,8 @@ pub(super) fn members(sets: [&Examination; 2], group: &Group) -> Vec<Member> {
     alone
 }
 
-/// Standard deviations of the differences of constant ICRs, m: they are known to a part of the
-/// gauge, beside the noise.
+/// Standard deviations of the differences of constant ICRs, m: by the noise, and by the share of
+/// the gauge to which contact models are known.
 fn deviation(sets: [&Examination; 2], group: &Group) -> Vector3<f64> {
     let search = &sets[0].search;
     let gauge = search.base.as_filed.hypothesis.vehicle.gauge;

@@ -29,9 +29,9 @@ pub enum Which {
 pub enum NoDifference {
     /// One of the general rules.
     Rule(Refusal),
-    /// The 95 % intervals of all its differences hold zero.
+    /// The 95 % intervals of all its differences include zero.
     MayBeNone,
-    /// A share of its own size: laws are known no better.
+    /// Less than the share of its own size to which laws are known.
     WithinForm {
         /// Largest difference, as share of the size.
         share: f64,
@@ -155,7 +155,8 @@ fn alternatives(group: &Group) -> Alternatives {
     group.numbers.iter().map(of).fold(Alternatives::default(), Alternatives::plus)
 }
 
-/// Which set has it, by the evidence: an interval misses none in one case of twenty.
+/// Which set has it, by the evidence. An interval would not do: one in twenty excludes zero where
+/// there is no effect.
 fn which(group: &Group, alternatives: &Alternatives) -> Which {
     if !matches!(group.subject, Subject::Effect(_)) {
         return Which::Both;

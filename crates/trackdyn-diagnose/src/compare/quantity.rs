@@ -108,8 +108,8 @@ impl Estimate {
     /// This less another estimate that is independent of it.
     ///
     /// # Law
-    /// low = d − √((θ₁ − l₁)² + (u₂ − θ₂)²), high likewise: each end is as far as those that it
-    /// hangs on.
+    /// low = d − √((θ₁ − l₁)² + (u₂ − θ₂)²), and high likewise. Each end depends on one end of
+    /// either interval.
     ///
     /// # Sources
     /// Zou, Donner, *Statistics in Medicine* 27(10), 2008.
@@ -120,7 +120,7 @@ impl Estimate {
         Self { value, low: value - below, high: value + above }
     }
 
-    /// Whether its interval holds a value.
+    /// Whether its interval includes a value.
     pub fn holds(&self, value: f64) -> bool {
         (self.low..=self.high).contains(&value)
     }
@@ -317,8 +317,8 @@ fn constants(
     Some((group, [of_first, of_second]))
 }
 
-/// Effects of a hypothesis that act as constant ICRs, its own and those of the vehicle file: where
-/// they are free, they and the offsets are known together alone.
+/// Effects of a hypothesis that act as constant ICRs, both its own and those of the vehicle file.
+/// Where they are free, only their sum with the offsets is known.
 fn beside(sets: [&Examination; 2], choice: &Choice, hypothesis: &Hypothesis) -> Vec<EffectId> {
     let is_one = |effect: &EffectId| {
         let mostly = sets.iter().any(|set| set.constants.mostly.contains(effect));

@@ -3,8 +3,8 @@
 //!
 //! # Law
 //! A contrast is a function of how the robot was driven. Its factor is free in common, and may
-//! differ by a second one in the second set. The second is tested: what both sets depart by alike
-//! is no difference, and schedules need not be the same.
+//! differ by a second one in the second set. The second is tested. So a departure that both sets
+//! share is no difference, and schedules need not be the same.
 
 use super::choice::Choice;
 use super::joint::Joint;
@@ -29,8 +29,8 @@ pub struct Remainder {
     /// Largest family-wise p of a symmetry in which they differ, and of one in which they surely
     /// do.
     pub max_p: [f64; 2],
-    /// Chi-squared that may be left in one symmetry: by the form of the laws and of what both sets
-    /// depart by alike, and by the noise.
+    /// Chi-squared that may be left in one symmetry: by the form of the laws, by the form of what
+    /// both sets have in common, and by the noise.
     pub tolerated: f64,
 }
 
@@ -40,7 +40,8 @@ impl Remainder {
         self.below(self.max_p[0])
     }
 
-    /// Symmetries in which they surely differ: as sure as of what a corrected model leaves.
+    /// Symmetries in which they surely differ, by the p value that is asked of what a corrected
+    /// model leaves.
     pub fn surely_broken(&self) -> Vec<Symmetry> {
         self.below(self.max_p[1])
     }
@@ -63,7 +64,7 @@ pub(super) fn icrs(sets: [&Examination; 2], choice: &Choice) -> [IcrColumns; 2] 
 }
 
 /// Tests contrasts between two sets, beside what is free in `joint`. `explained` is the chi-squared
-/// of named differences: their laws are known to a part, too.
+/// of named differences, whose laws, too, are known only to a share.
 pub(super) fn remainder(
     sets: [&Examination; 2],
     choice: &Choice,

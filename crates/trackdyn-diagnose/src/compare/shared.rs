@@ -1,15 +1,15 @@
 //! The model of both sets in which nothing differs but what is claimed.
 //!
-//! What is alike in a simulator and a robot is known by the recordings of both. Were each set's own
-//! estimates taken, an error of one that hangs together with a claimed number would pass for a
-//! prediction that the claim makes worse.
+//! What a simulator and a robot have in common is estimated from the recordings of both. With each
+//! set's own estimates, an error that correlates with a claimed number would make the claim seem to
+//! predict worse.
 
 use super::in_common::{InCommon, Sets, in_common};
 use super::quantity::{Group, Number, Quantity, Subject};
 use crate::fit::{Fit, at_bound};
 use crate::hypothesis::{Hypothesis, Unknown};
 
-/// The second set's model, where its numbers but these are those of both sets.
+/// The second set's model. All its numbers but these are estimated from both sets.
 pub(super) struct Shared {
     /// With these numbers as in the first set.
     pub as_first: Hypothesis,
@@ -102,7 +102,8 @@ impl Moved {
         Self { hypothesis: hypothesis.clone(), icrs: [0.0; 3] }
     }
 
-    /// Moves an unknown at constant ICRs, which it would move by `gradient`.
+    /// Moves an unknown and keeps the constant ICRs where they are: by itself it would move them by
+    /// `gradient`.
     fn by(&mut self, unknown: Unknown, change: f64, gradient: [f64; 3]) {
         let before = self.hypothesis.get(unknown);
         self.hypothesis = self.hypothesis.with(unknown, before + change);

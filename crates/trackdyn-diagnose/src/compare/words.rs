@@ -47,7 +47,7 @@ pub fn nothing_named(comparison: &Comparison) -> String {
     }
 }
 
-/// What a difference depends on that breaks a symmetry.
+/// What a difference depends on if it breaks a symmetry.
 pub fn depends_on(symmetry: Symmetry) -> &'static str {
     match symmetry {
         Symmetry::SpeedScale => "speed",
@@ -274,7 +274,7 @@ pub fn instruments(comparison: &Comparison) -> Option<String> {
     (!words.is_empty()).then(|| words.join("; "))
 }
 
-/// What was compared, is not claimed, and yet is no chance, where something is left unexplained.
+/// Differences that are no chance and yet are not claimed, where something is left unexplained.
 pub fn refused(comparison: &Comparison) -> Vec<String> {
     if comparison.status() != Status::Unexplained {
         return Vec::new();

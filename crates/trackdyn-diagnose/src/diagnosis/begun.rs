@@ -1,4 +1,4 @@
-//! Evidence whose runs begin in a motion of their own, where it says so.
+//! Evidence whose runs begin in a motion of their own, where the evidence favours that.
 
 use crate::base::Base;
 use crate::candidate::Catalogue;
@@ -12,8 +12,9 @@ use trackdyn_core::Side;
 /// The evidence in which each run begins in a motion of its own; none where stationary beginnings
 /// explain it as well.
 ///
-/// Who slides has inertia: Newton's law in one piece is fitted with both kinds of beginnings, and
-/// the evidence of the two is compared. Unknown beginnings cost three numbers a run.
+/// A sliding robot has inertia. So Newton's second law is fitted as a whole, with stationary
+/// beginnings and with unknown ones, and the evidence of both is compared. Unknown beginnings cost
+/// three numbers a run.
 ///
 /// # Errors
 /// [`Cancelled`], by the observer of the watch.

@@ -86,7 +86,7 @@ impl Judged {
         self.search.evidence.rescaled(&self.best.fit.residual)
     }
 
-    /// What the search found, for one with other noise.
+    /// What the search found, for a search with other noise.
     pub fn into_known(self) -> Known {
         self.search.into_known(self.best)
     }
@@ -163,8 +163,8 @@ impl Physics {
     }
 }
 
-/// The hypothesis with the best other member of a set whose leader is refused for its numbers;
-/// none where the set has no other member that explains more than nothing.
+/// The hypothesis with the best other member of a set whose leader is refused for its numbers; none
+/// where no other member of the set explains anything.
 fn in_its_place(
     basis: &Basis,
     without: &Found,

@@ -41,9 +41,9 @@ impl Searched {
         })
     }
 
-    /// Searches the evidence, and once more where the best hypothesis leaves less noise: it
-    /// explains what contrasts cannot, which had been counted as noise. `known` is from an earlier
-    /// search with other noise.
+    /// Searches the evidence, and searches it once more where the best hypothesis leaves less
+    /// noise: then it explains what contrasts cannot, and what had been counted as noise. `known`
+    /// is from an earlier search with other noise.
     pub fn sharpened(
         seen: &Weighted,
         base: Base,
@@ -67,14 +67,14 @@ impl Searched {
         self.search.evidence.rescaled(&self.found.fit.residual)
     }
 
-    /// What the search found, for one with other noise.
+    /// What the search found, for a search with other noise.
     pub fn into_known(self) -> Known {
         self.search.into_known(self.found)
     }
 }
 
 /// A search with the signatures of all candidates, and of refined variants between them that gain
-/// more; with those that are known, where they serve.
+/// more. Known signatures are used where they still hold.
 fn with_signatures(
     seen: &Weighted,
     base: Base,

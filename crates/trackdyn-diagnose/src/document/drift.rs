@@ -39,8 +39,8 @@ pub struct ComparedTable {
 }
 
 impl DriftTable {
-    /// Whether the corrected vehicle is surely worse in one of them: what it was learned from and
-    /// how it drives contradict one another.
+    /// Whether the corrected vehicle surely drifts more in place or in yaw. Then the way it drives
+    /// contradicts the evidence that it was fitted to.
     pub fn is_worse(&self) -> bool {
         let Self { place_m_per_100_m: place, yaw_deg_per_turn: yaw } = self;
         place.iter().chain(yaw).any(ComparedTable::is_worse)

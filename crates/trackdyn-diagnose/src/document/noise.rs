@@ -33,7 +33,7 @@ fn is_none(deviation: &f64) -> bool {
     *deviation == 0.0
 }
 
-/// Smallest and largest standard deviation that a reader takes for meant, m or rad.
+/// Smallest and largest standard deviation that a reader accepts, m or rad.
 const LIMITS: [f64; 2] = [0.0, 1e3];
 
 impl NoiseTable {

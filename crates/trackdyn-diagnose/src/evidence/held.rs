@@ -1,9 +1,10 @@
 //! Encoder speeds that a slower source holds between its updates.
 //!
 //! A driver that reports at 4 Hz, logged at 20 Hz, repeats each value four times: the recorded
-//! speed is a staircase, the belt's is none. A fitted drive lag would smooth it. Where values
-//! change at even times several readings apart, a line leads from one to the next. A value that
-//! stays for longer was confirmed at each update: the line begins one interval before the change.
+//! speed is a staircase, and the speed of the belt is not. A fitted drive lag would smooth the
+//! staircase. Where values change at even times several readings apart, a line leads from one to
+//! the next. A value that stays for longer was confirmed at each update: the line begins one
+//! interval before the change.
 
 use super::with_speeds;
 use crate::settings;

@@ -245,8 +245,8 @@ impl<'a> Poses<'a> {
         }
     }
 
-    /// The poses with their yaw corrected by a gyroscope; as they are where it does not serve. They
-    /// stand at their times, so it tells where they look.
+    /// The poses with their yaw corrected by a gyroscope; as they are where it does not serve. Late
+    /// stamps were mended before, so that a pose and the gyroscope are compared at one time.
     fn with_gyroscope(self, tau: f64, settings: &Settings) -> Self {
         let corrected = with_gyroscope(&self.uncorrected, tau, &settings.gyroscope);
         let noise = match &corrected {

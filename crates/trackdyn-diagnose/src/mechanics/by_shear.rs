@@ -207,7 +207,7 @@ mod tests {
         squares.sum::<f64>().sqrt()
     }
 
-    /// A law at no size is none, where centripetal force is large as well.
+    /// A law of size zero changes nothing, even where centripetal force is large.
     #[test]
     fn a_law_without_size_changes_nothing() {
         for law in ["stribeck-friction:excess=0", "viscous-friction:growth_s_per_m=0"] {

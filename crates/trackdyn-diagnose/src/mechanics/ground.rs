@@ -101,11 +101,11 @@ pub struct ByGround {
 /// Known motions of a sample: at its place, and without what changes with the place.
 type Starts = [Option<Near>; 2];
 
-/// Largest share of the samples with a departure whose solves had far to go: with more, the motions
-/// of all samples are kept as new starts.
+/// Largest share of far solves among the samples that depart. Above it, the motions of all samples
+/// are kept as new starts.
 const MAX_FAR_SHARE: f64 = 0.1;
 
-/// Most steps of a solve whose start was near its motion; with more it had far to go.
+/// Most steps of a solve that starts near its motion. One that takes more is a far solve.
 const MAX_NEAR_STEPS: usize = 3;
 
 /// A sample at which the ground changes the motion.

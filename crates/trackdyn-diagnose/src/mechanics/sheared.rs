@@ -22,9 +22,9 @@
 //! Where that fails too, a share of one step that lowers the residual is taken: near sticking a law
 //! may be steep, and the whole step would lead far away.
 //!
-//! Where û has been about the stationary motion for a while, so is the motion with the laws, and D
-//! is that of the stationary one: most of a drive, in which few stages need an evaluation. Where
-//! that is depends on û alone, so that D stays smooth in the numbers of the laws.
+//! Where û has been near the stationary motion for a while, so is the motion with the laws, and D
+//! is that of the stationary motion. Most of a drive is like this, so few stages need an
+//! evaluation. These times depend on û alone, so that D stays smooth in the numbers of the laws.
 
 use crate::settings;
 use nalgebra::{Matrix3, Vector3};

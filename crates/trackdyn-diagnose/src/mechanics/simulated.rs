@@ -122,7 +122,8 @@ pub struct Inertia {
     pub surface: Surface,
     /// Stationary twists at the belt speeds.
     steady: Vec<Vec<Twist>>,
-    /// Sums of forces in these, nonzero by the error of the table, computed on demand.
+    /// Sums of forces on the robot in these twists, computed on demand. They are zero but for the
+    /// error of the table.
     left: OnceLock<Vec<Vec<Vector3<f64>>>>,
     /// Departures that were found last.
     departures: Mutex<VecDeque<Departures>>,
@@ -262,7 +263,8 @@ impl Inertia {
         let creep = self.settings.stick_speed;
         let with = Forces { model: &with, ground: &grounds[0], creep };
         let without = Forces { model: &self.model, ground: &grounds[1], creep };
-        // Sequential: a job of the thread pool taken up in between would wait for this one.
+        // Not in parallel: the thread could take up another job of its pool while it waits, and
+        // that job would wait for this result.
         let steps =
             self.steps.get_or_init(|| (0..self.belts.len()).map(|run| self.steps(run)).collect());
         let left = self.left.get_or_init(|| {

@@ -104,8 +104,8 @@ impl Flexible {
         Self { residual, columns, own: unknowns.len() }
     }
 
-    /// Fits all columns with the evidence's noise; only the fit's own where the recording is so
-    /// short that all would leave less than half of the degrees of freedom.
+    /// Fits all columns with the evidence's noise. Only the fit's own columns are used where the
+    /// recording is so short that all columns would leave less than half of the degrees of freedom.
     pub(super) fn left(&self, evidence: &Weighted) -> Left {
         let mut residual = white(evidence, &self.residual);
         let mut columns: Vec<_> =

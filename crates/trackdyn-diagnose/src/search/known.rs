@@ -65,7 +65,7 @@ impl Known {
     }
 
     /// Takes out the signatures for other evidence of the same samples; none where the base now
-    /// predicts another motion, or a sample was lost that is not any more.
+    /// predicts another motion, or where a sample that was lost has been restored.
     pub fn take_signatures(&mut self, base: &Base, evidence: &Weighted) -> Option<Catalogue> {
         let Signed { base: before, evidence: of, catalogue } = self.signed.take()?;
         let most = evidence.settings().candidates.max_base_change;

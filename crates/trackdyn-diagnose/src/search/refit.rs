@@ -9,8 +9,8 @@ use crate::prior::prior;
 use trackdyn_model::EffectId;
 
 impl Search {
-    /// Refits the hypothesis with more effects: from where an earlier search left them, as long as
-    /// that keeps what they promise now.
+    /// Refits the hypothesis with more effects. It starts from where an earlier search left them,
+    /// if that keeps the gain that the screen promises now.
     pub fn refit(&self, beside: &Found, more: &[Screened]) -> Found {
         let added: Vec<EffectId> = more.iter().map(|one| one.effect).collect();
         let (effects, _) = beside.extended(&added);
@@ -112,8 +112,8 @@ impl Search {
         hypothesis
     }
 
-    /// The hypothesis with more effects at no size, their other numbers as expected: it is as good
-    /// as the hypothesis without them.
+    /// The hypothesis with more effects at size zero, with their other numbers at the expected
+    /// values. It is as good as the hypothesis without them.
     fn at_no_size(&self, beside: &Found, more: &[Screened]) -> Hypothesis {
         let hypothesis = &beside.fit.hypothesis;
         let added = more.iter().filter(|one| hypothesis.effect(one.effect).is_none());

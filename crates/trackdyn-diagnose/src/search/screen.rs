@@ -14,8 +14,8 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 impl Search {
-    /// What these catalogue entries add to a fit, in forms of any deviation: what was missing may
-    /// have passed for other forms.
+    /// What these catalogue entries add to a fit, at every deviation of the forms: a missing effect
+    /// may have passed for other forms.
     fn added<'a>(&self, beside: &'a Found, entries: &[usize]) -> Added<'a> {
         let equations = self.equations(beside, entries);
         let first = beside.fit.unknowns.len();
@@ -167,7 +167,7 @@ impl Added<'_> {
 struct Held {
     /// Sizes of each variant, as distances from the present ones.
     sizes: Vec<Vec<f64>>,
-    /// Rise of the least misfit by that; zero where none is held.
+    /// Increase of the least misfit by holding them; zero where none is held.
     rise: f64,
 }
 

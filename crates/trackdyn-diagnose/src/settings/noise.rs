@@ -70,7 +70,7 @@ settings_group! {
             "A cap: the gain ends them.";
         /// Gain of ln likelihood that ends them.
         min_gain: f64 = 0.005, "", [0.0, 10.0],
-            "At ten times that, a walk is open by a tenth, and hangs on the order of the runs.";
+            "At ten times that, a walk is open by a tenth, and depends on the order of the runs.";
         /// Largest step of a ln variance.
         max_step: f64 = 1.5, "", [0.01, 100.0],
             "Longer ones overshoot.";

@@ -1,4 +1,4 @@
-//! How well a recording tells a number that hangs on several unknowns.
+//! How well a recording determines a number that depends on several unknowns.
 
 use super::{groupings, shown_by};
 use crate::equations::Equations;
@@ -85,8 +85,9 @@ impl Spread {
 
     /// Half width of the 95 % interval of a number with this gradient by the unknowns.
     ///
-    /// An unknown at a bound on which the number hangs is free here: the bound cuts off what lies
-    /// beyond it, but how far the number may lie on this side of it, the recordings tell.
+    /// Where the number depends on an unknown that ended at its bound, that unknown is free here.
+    /// The bound cuts off only what lies beyond it. How far the number may lie on this side of the
+    /// bound is for the recordings to tell.
     pub fn half(&self, gradient: &[f64]) -> f64 {
         debug_assert_eq!(gradient.len(), self.count);
         let is_held = |place: &usize| gradient[*place] != 0.0 && !self.free.contains(place);

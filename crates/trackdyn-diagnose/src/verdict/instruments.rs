@@ -80,9 +80,9 @@ fn without_instrument(search: &Search, best: &Found, effect: EffectId) -> Found 
     search.with_own_starts(search.found(best.effects.clone(), fit))
 }
 
-/// Whether the linear prediction of the fit is that an instrument effect as filed, `parts` away,
-/// costs less than half of a claim. The other half is for what is not linear. False where a number
-/// of it is held at a bound, of which there is no prediction.
+/// Whether an instrument effect as filed, `parts` away, costs less than half of a claim by the
+/// linear prediction of the fit. The other half allows for nonlinearity. False where one of its
+/// numbers is held at a bound, for which there is no prediction.
 fn is_negligible(fit: &Fit, columns: &[usize], parts: &[f64], claim: f64) -> bool {
     let rise = || fit.solution.rise(columns, &DVector::from_column_slice(parts));
     columns.iter().all(|column| fit.free.contains(column)) && rise() / 2.0 < claim / 2.0

@@ -133,7 +133,9 @@ impl fmt::Display for Refusal {
                 let names = names.join(" and ");
                 write!(f, "no more than what {names} of a slightly other size may leave")
             }
-            Self::MayBeNone => f.write_str("the 95 % interval of its size holds none"),
+            Self::MayBeNone => {
+                f.write_str("the 95 % interval of each of its sizes includes the size of no effect")
+            }
             Self::Nowhere => {
                 f.write_str("the 95 % interval of its place is wider than the area driven")
             }

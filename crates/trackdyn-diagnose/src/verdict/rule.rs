@@ -100,7 +100,10 @@ impl Rule {
                 percent(verdict.max_form_error)
             ),
             Self::PhysicalSize => "its sizes lie inside their physical ranges".to_owned(),
-            Self::Interval => "the 95 % interval of one of its sizes excludes none".to_owned(),
+            Self::Interval => {
+                "the 95 % interval of at least one of its sizes excludes the size of no effect"
+                    .to_owned()
+            }
             Self::Place => {
                 "the 95 % interval of its place, if it has one, is narrower than the area driven"
                     .to_owned()
@@ -121,8 +124,8 @@ impl Rule {
                 percent(verdict.min_icr_difference)
             ),
             Self::Rivals => format!(
-                "not all of the {} strongest rivals that were refitted in its place do as well \
-                 while others wait",
+                "at least one of the {} strongest rivals does worse when refitted in its place, \
+                 or no other rival does as well",
                 answer.max_rivals
             ),
         }

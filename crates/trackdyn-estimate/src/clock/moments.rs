@@ -1,4 +1,5 @@
-//! The offset at which the residual is orthogonal to instruments without the noise of D.
+//! The clock offset by instrumental variables: the residual is orthogonal to instruments that do
+//! not share the noise of D.
 
 use super::Settings;
 use super::intervals::{Intervals, RunIntervals, Turn};

@@ -136,7 +136,8 @@ impl Fit {
         best.map(|(_, lag)| lag).ok_or(Unfit::TooFewPoses { found: most, needed: min_poses })
     }
 
-    /// The best fit near a lag, s: quick changes tell the lag, turns over longer times the scale.
+    /// The best fit near a lag, s: quick changes determine the lag, and turns over longer times the
+    /// scale.
     pub(super) fn near(drive: &Drive, lag: f64) -> Result<Self, Unfit> {
         let quick = Self::start(lag, drive.settings).settled(drive, lag, None)?;
         quick.settled(drive, quick.lag, Some(drive.settings.scale_interval))

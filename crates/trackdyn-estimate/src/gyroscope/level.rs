@@ -21,7 +21,7 @@ const MIN_WHITE: f64 = 1e-12;
 /// Smallest variance of the walk, rad²/s.
 const MIN_WALK: f64 = 1e-14;
 
-/// Relative variance of a variance that n squares show by their median, times n.
+/// Relative variance of a variance that is estimated by the median of n squares, times n.
 const VARIANCE_OF_MEDIAN: f64 = 5.4;
 
 /// Its variances.
@@ -95,7 +95,7 @@ impl Level {
         times.windows(2).map(step).collect()
     }
 
-    /// What is new in each value but the first, in standard deviations.
+    /// The innovation of each value but the first, in standard deviations.
     pub(super) fn whitened(&self, times: &[f64], values: &[f64]) -> Vec<f64> {
         let Some(&first) = values.first() else { return Vec::new() };
         let mut mean = self.first(first).mean;
@@ -186,9 +186,9 @@ impl Spread {
     }
 }
 
-/// The variances, none negative, that fit best with this time of correlation, s, or without an
-/// error that wanders, and chi-squared of their misfit: the best of all choices of those that are
-/// not zero.
+/// The non-negative variances that fit best at this time of correlation, s, or without an error
+/// that wanders; and the chi-squared of their misfit. All choices of variances that are not zero
+/// are tried.
 fn fitted(seen: &[Spread], time: Option<f64>) -> Option<(f64, Level)> {
     let row = |of: &Spread| {
         let wandered = time.map_or(0.0, |time| 1.0 - (-of.time / time).exp());

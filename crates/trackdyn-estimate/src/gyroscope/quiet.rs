@@ -5,7 +5,7 @@ use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, median, usual_interval};
 use trackdyn_recording::{Run, hold};
 
 /// Variance per second of the random walk of the integral, rad²/s: that of a reading times the time
-/// between two. What the robot does adds to it where it never stands.
+/// between two. Where the robot never stands, its motion adds to it.
 pub(super) fn walk(drive: &Drive) -> f64 {
     let (mut still, mut all) = (Vec::new(), Vec::new());
     for (run, turned) in drive.recording.runs().iter().zip(drive.turned) {

@@ -12,8 +12,8 @@ use nalgebra::{DMatrix, DVector};
 pub struct Estimate {
     /// The parameters; those that are not free keep their start.
     pub parameters: Parameters,
-    /// Clock and mount of the sensor: what is not fitted is the clock offset of the observations,
-    /// and no yaw.
+    /// Clock and mount of the sensor. Where they are not fitted, they are the clock offset of the
+    /// observations and a yaw of 0.
     pub sensor: Sensor,
     /// What was fitted.
     pub unknowns: Unknowns,
@@ -36,8 +36,8 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// The estimate where all yaw of the recording shares a relative error of this standard
-    /// deviation, which neither noise nor scatter shows.
+    /// The estimate, widened by a relative error of this standard deviation that all yaw of the
+    /// recording shares. Neither noise nor scatter shows such an error.
     ///
     /// A yaw that is 1 + δ times as large has ICRs at x_l/(1 + δ), x_r/(1 + δ) and y/(1 + δ):
     /// ∂θ/∂δ = −θ

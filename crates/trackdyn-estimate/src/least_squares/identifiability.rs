@@ -24,8 +24,8 @@ const MIN_EXCITATION: f64 = 10.0;
 /// noise.
 const MIN_CHANGE_RATIO: f64 = 1.0;
 
-/// What the driving of a recording lacks for these parameters; none where it does. `noise` is that
-/// of the recording.
+/// What the driving of a recording lacks for these parameters; none where it lacks nothing. `noise`
+/// is that of the recording.
 pub fn lacks(observations: &Observations, noise: &Noise, free: Free) -> Option<Doubt> {
     let ratio = poorest_excitation(observations, noise, free);
     (ratio < MIN_EXCITATION).then_some(match free {
@@ -34,7 +34,7 @@ pub fn lacks(observations: &Observations, noise: &Noise, free: Free) -> Option<D
     })
 }
 
-/// What the driving of a recording lacks for a property of the sensor; none where it does not.
+/// What the driving of a recording lacks for a property of the sensor; none where it lacks nothing.
 pub fn lacks_nuisance(
     observations: &Observations,
     noise: &Noise,

@@ -91,8 +91,8 @@ fn still(run: &Run, settling_time: f64) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Whether the tracks move, and in the second half as in the first but for an `allowed` error of a
-/// reading, m/s.
+/// Whether the tracks move, and move alike in both halves but for an `allowed` error of a reading,
+/// m/s.
 fn is_steady(run: &Run, [a, b, c]: [&PoseSample; 3], tau: f64, allowed: PerSide<f64>) -> bool {
     let tracks = run.tracks();
     let (Some(first), Some(last)) = (tracks.first(), tracks.last()) else { return false };

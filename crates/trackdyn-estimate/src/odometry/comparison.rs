@@ -76,8 +76,9 @@ impl Comparison {
         self.spans.iter().find(|errors| errors.span == span)
     }
 
-    /// The spans that show growth, from segments on: distances, or durations where runs are too
-    /// short for two distances with [`Comparison::MIN_STRETCHES`] stretches.
+    /// The spans over which errors are shown growing, from segments on. They are distances, or
+    /// durations where runs are too short for two distances with [`Comparison::MIN_STRETCHES`]
+    /// stretches.
     pub fn growth(&self) -> Vec<&SpanErrors> {
         let of = |is: fn(&Span) -> bool| -> Vec<&SpanErrors> {
             let often = |errors: &&SpanErrors| errors.count >= Self::MIN_STRETCHES;
@@ -88,12 +89,13 @@ impl Comparison {
         if distances.len() > 2 || durations.len() < 2 { distances } else { durations }
     }
 
-    /// The span over which a drift is reported: the longest that shows growth, else segments.
+    /// The span over which a drift is reported: the longest of [`Comparison::growth`], or segments
+    /// where there is none.
     pub fn drift(&self) -> Option<&SpanErrors> {
         self.growth().last().copied().or_else(|| self.segments())
     }
 
-    /// Smallest number of stretches for a statistic that is shown.
+    /// Least number of stretches from which a statistic is shown.
     pub const MIN_STRETCHES: usize = 20;
 
     /// Time that was replayed, s.

@@ -5,13 +5,13 @@
 //! Newton's second law with it. Drive, mount and delay of the pose sensor are the file's.
 //!
 //! # Assumes
-//! A run begins in the stationary motion of its first reading. Laws of place and heading act where
-//! the dead reckoning believes to be, laws of time count from the beginning of the recording.
+//! A run begins in the stationary motion of its first reading. Laws of place and heading act at the
+//! pose of the dead reckoning. Laws of time count from the beginning of the recording.
 //!
 //! # Clock
-//! The clock offset of a recording holds the time by which its robot answers, by lag and inertia,
-//! beside the delay of its pose sensor. So where a file knows of no delay, it is the offset less
-//! the answer of the forces, found from the path that they predict ([`delay`]).
+//! The clock offset of a recording is the delay of its pose sensor plus the time by which lag and
+//! inertia delay its robot. So where a file states no delay, the delay is the offset less the
+//! response time of the forces, found from the path that they predict ([`delay`]).
 
 use super::covered::covered;
 use crate::clock::{self, Clock, clock_offset};
@@ -24,8 +24,8 @@ use trackdyn_recording::{PoseSample, Recording, Run, Source, UncheckedRun, hold,
 const CREEP_SPEED: f64 = 1e-4;
 
 /// Delay of the poses in a replay by the forces on a vehicle, s: that of the file, where it has
-/// one; else the clock offset. An estimated offset holds the delay of the robot's own answer, which
-/// the forces repeat, so that is subtracted.
+/// one; else the clock offset. An estimated offset includes the response time of the robot. The
+/// forces repeat that, so it is subtracted.
 pub fn delay(recording: &Recording, file: &VehicleFile, clock: &Clock) -> f64 {
     let own = model(file).sensor().delay;
     match clock {
@@ -35,8 +35,8 @@ pub fn delay(recording: &Recording, file: &VehicleFile, clock: &Clock) -> f64 {
     }
 }
 
-/// Time by which the forces on a vehicle answer the track speeds of a recording, as its clock
-/// offset would show it, s; none where it shows none.
+/// Response time of the forces on a vehicle to the track speeds of a recording, as a clock offset
+/// shows it, s; none where it shows none.
 fn answer(recording: &Recording, file: &VehicleFile) -> Option<f64> {
     let moved = |run: &Run| {
         let seen = &run.poses()[covered(run, 0.0)];

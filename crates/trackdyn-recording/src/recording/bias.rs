@@ -15,7 +15,7 @@ use trackdyn_core::{Side, real};
 /// take for chance, reach three.
 const MIN_ERRORS: f64 = 6.0;
 
-/// Fewest standard errors of the way that is run per time without either track.
+/// Fewest standard errors of the way per time that neither track explains.
 const MIN_ERRORS_OF_WAY: f64 = 4.0;
 
 /// Smallest offset, as share of the root mean square of the speeds of its side.

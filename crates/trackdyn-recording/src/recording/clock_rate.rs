@@ -7,8 +7,9 @@
 //! correlation in parts of the runs, and with the median of the slopes between these.
 //!
 //! Errors are those of a jackknife over blocks of time, so that slip that comes and goes counts.
-//! Where ρ shows, leaves less of the turns than any one delay, and makes clocks part by more than
-//! poses are known in time, stamps of poses are set back by ρ (t − t̄).
+//! Stamps of poses are set back by ρ (t − t̄) on three conditions: ρ is significant, it leaves less
+//! of the turns than any one delay, and the clocks drift apart by more than poses are known in
+//! time.
 
 use super::Run;
 use super::finding::{Cleaning, Finding};
@@ -47,7 +48,7 @@ const ITERATIONS: usize = 8;
 /// chance, reach three.
 const MIN_ERRORS: f64 = 6.0;
 
-/// Largest part of the squares that one delay leaves of the turns, that a rate leaves.
+/// Largest ratio of the squares that a rate leaves of the turns to those that one delay leaves.
 const MAX_RESIDUAL_SHARE: f64 = 0.9;
 
 /// Delays around that of the rate that are tried as one delay, in steps of a fraction of

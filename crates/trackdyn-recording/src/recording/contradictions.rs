@@ -31,7 +31,7 @@ const MAX_QUARTILE_RATIO: f64 = 2.0;
 /// ICRs.
 const MAX_PART: f64 = 0.3;
 
-/// Standard errors of it that are counted in.
+/// Standard errors of that ratio that are allowed for.
 const MIN_ERRORS: f64 = 3.0;
 
 /// Correlation from which on two motions are one.
@@ -59,8 +59,8 @@ const MAX_UNIT_ERROR: f64 = 1.15;
 /// Largest ratio of its quartiles.
 const MAX_UNIT_QUARTILE_RATIO: f64 = 1.3;
 
-/// How far twice the sum of path and heading is from half a turn at most, rad, where the heading is
-/// that of a compass.
+/// Largest distance of twice the sum of path and heading from half a turn, rad, at which the
+/// heading is that of a compass.
 const MAX_COMPASS_DEVIATION: f64 = 0.5;
 
 /// Share of the rows with the stamp of another one from which on stamps are too coarse.

@@ -1,9 +1,9 @@
 //! Numbers that are read as speeds and are positions: ticks of encoders, angles, ways.
 //!
 //! # Law
-//! Where the change of a number in a piece is p s + q φ of the poses, at some delay, and its
-//! integral is not at any, it is the way of a track so far and not its speed. Wraps of a counter
-//! are changes that are far larger than nearly all others, and are left out.
+//! A number is the way of a track so far, and not its speed, on two conditions: its change in a
+//! piece is p s + q φ of the poses at some delay, and its integral is so at none. Wraps of a
+//! counter are changes that are far larger than nearly all others, and are left out.
 
 use super::Run;
 use super::by_poses::{ByDelay, Row, larger, unexplained};
@@ -58,7 +58,7 @@ mod tests {
     use crate::sample::{PoseSample, TrackSample};
     use trackdyn_core::Pose;
 
-    /// Speeds of both sides, m/s; they do not repeat: the integral of a sine is one that is late.
+    /// Speeds of both sides, m/s; they do not repeat: the integral of a sine is a late sine.
     fn speeds(t: f64) -> [f64; 2] {
         let [left, right] = [0.31 * t + 0.004 * t * t, 0.23 * t + 0.003 * t * t + 1.0];
         [0.4 * left.sin() + 0.2, 0.5 * right.sin() + 0.1]

@@ -8,13 +8,13 @@
 //! nearly all speeds of the side do, and jumps by that much at the end or lasts for long. Commands
 //! and coarse encoders repeat their speeds as well.
 //!
-//! What the track ran then is told twice by the other side: by the turn of the poses, and by their
-//! way forward. The encoder was dead where both agree on a way that is off by more than a third of
-//! the usual speed, in the second half of the time as well: where the readings are commands, a
-//! track rolls out and stands. A robot that stops stands by its poses as well; on ice it slides on
-//! for a while, which is why a speed has to come back. Commands stay the same as well, and a robot
-//! that slides, or lags, does not follow them: a speed that is not zero has to be off by twice what
-//! nearly all the rest of the log is, and rarely.
+//! With the way of the other side, the poses show twice how far the track ran then: by their turn,
+//! and by their way forward. The encoder was dead where both agree on a way that is off by more
+//! than a third of the usual speed, in the second half of the time as well: where the readings are
+//! commands, a track rolls out and stands. A robot that stops stands by its poses as well; on ice
+//! it slides on for a while, which is why a speed has to come back. Commands stay the same as well,
+//! and a robot that slides, or lags, does not follow them: a speed that is not zero has to be off
+//! by twice what nearly all the rest of the log is, and rarely.
 //!
 //! A few readings are replaced by the line between those beside them; more are dropped, which
 //! leaves a gap: nobody knows what the track did within.
@@ -54,7 +54,7 @@ const MAX_SLIDE_TIME: f64 = 3.0;
 /// Agreement of both ways from which on they are those of one track.
 const MIN_AGREEMENT: f64 = 0.5;
 
-/// Longest time between the poses around equal readings, in times of these.
+/// Longest time between the poses around equal readings, as multiple of the time of these readings.
 const MAX_WIDENING: f64 = 2.0;
 
 /// Least time of the pieces that a long time is cut into, s.
@@ -195,8 +195,8 @@ fn off(run: &Run, side: Side, following: &Following, piece: &Piece) -> [f64; 2] 
     [by_turn, by_way.map_or(by_turn, |way| way - read[side])]
 }
 
-/// Speed (m/s) by which the readings of a side are off less in nearly all of the log that is not in
-/// question.
+/// Speed (m/s) below which the error of the readings of a side stays in nearly all of the log that
+/// is not in question.
 fn usually_off(
     runs: &[Run],
     side: Side,

@@ -22,7 +22,7 @@ pub(crate) fn turn_by_gyroscope(run: &mut UncheckedRun) {
 /// Δψ = ∫ ω dt by the trapezoidal rule
 ///
 /// # Assumes
-/// The bias of the gyroscope, which is not removed here, is found by who fits the yaw.
+/// The bias of the gyroscope is not removed here: fits of the yaw estimate it.
 pub(crate) fn headings(rates: &[[f64; 2]]) -> Vec<f64> {
     let mut yaw = 0.0;
     let turns = rates.windows(2).map(|pair| {

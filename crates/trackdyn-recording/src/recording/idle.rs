@@ -19,10 +19,10 @@ const MAX_CHANGE: f64 = 1e-9;
 /// Part of the squares that constant speeds have to explain.
 const MIN_EXPLAINED_SHARE: f64 = 0.7;
 
-/// Turns of this size are none of noise, rad.
+/// Least turn that is larger than noise, rad.
 const MIN_TURN: f64 = 0.1;
 
-/// Standard deviation of the positions of a robot that stands still, m, whatever moves them.
+/// Largest standard deviation of the positions of a robot that stands still, m.
 const STILL_POSITION: f64 = 0.02;
 
 /// Standard deviation of its yaw, rad.

@@ -11,7 +11,7 @@ use crate::doubt::Doubt;
 use trackdyn_core::robust::{median, usual_interval};
 use trackdyn_core::{Side, real};
 
-/// Difference of two ways in the median one.
+/// Least difference of two ways that is a jump, in median ways.
 const MIN_JUMP: f64 = 10.0;
 
 /// Fewest jumps that are too many.

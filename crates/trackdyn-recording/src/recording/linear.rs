@@ -1,4 +1,5 @@
-//! What poses do per way of each side and per time: a fit that takes no side for anything.
+//! Motion of the poses per way of each side and per time: a fit that does not assume which column
+//! is which side.
 //!
 //! # Law
 //! turn = b_l D_l + b_r D_r + b_0 T and way forward = a_l D_l + a_r D_r + a_0 T over pieces of a

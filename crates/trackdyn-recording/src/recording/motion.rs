@@ -13,7 +13,7 @@ use trackdyn_core::{PerSide, Side};
 /// Least time of a piece, s.
 pub(super) const MIN_PIECE: f64 = 0.25;
 
-/// Longest time of a piece, s: a gap of the poses is none.
+/// Longest time of a piece, s: a gap of the poses is no piece.
 const MAX_PIECE: f64 = 5.0;
 
 /// Fewest pieces that tell how poses follow.

@@ -30,8 +30,8 @@ const ROUNDING: f64 = 1e-5;
 /// Fewest pieces between poses that lie in such readings.
 const MIN_PIECES: usize = 12;
 
-/// Part of the way that a track has to run further than its readings say, beyond that at speeds
-/// nearly as large, or where there are none of these. Loads that shift at top speed change what
+/// Least share by which a track runs further than its readings say: beyond that share at speeds
+/// nearly as large, and where there are no such speeds. Loads that shift at top speed change what
 /// tracks do by some percent.
 const MIN_MISSING_SHARE: f64 = 0.1;
 const MIN_MISSING_SHARE_ALONE: f64 = 0.15;
@@ -39,7 +39,7 @@ const MIN_MISSING_SHARE_ALONE: f64 = 0.15;
 /// Speeds that are nearly as large, as share of the largest.
 const COMPARED_SPEEDS: [f64; 2] = [0.5, 0.97];
 
-/// This in standard errors.
+/// Least significance of that share, in standard errors.
 const MIN_ERRORS: f64 = 6.0;
 
 /// Smallest part of a piece that lies in such readings.

@@ -30,7 +30,7 @@ use trackdyn_core::{PerSide, Side};
 /// Readings on either side of one whose median it is compared with.
 const HALF_WINDOW: usize = 2;
 
-/// Fewest readings of a run whose spread can be told.
+/// Fewest readings from which the spread of a run is estimated.
 const MIN_READINGS: usize = 20;
 
 /// Distances from the median, in its robust standard deviations, that noise does not reach.

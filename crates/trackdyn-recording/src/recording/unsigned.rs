@@ -1,12 +1,11 @@
 //! Speeds without a sign: of an encoder that counts, and does not tell the direction.
 //!
 //! # Law
-//! The way of a track is D = p (s + c φ), with s the way forward and φ the turn of the poses, and
-//! c its lever: positive on the right, negative on the left. A side whose readings never change
-//! their sign shows |D|. It is doubted where the best p |s + c φ| explains its ways and no
-//! p s + q φ does, at any delay of the poses, and where s + c φ has both signs. Poses that are
-//! late, slip and other units spoil both explanations or none; of a drive that only goes forward
-//! they are one.
+//! The way of a track is D = p (s + c φ), with s the way forward and φ the turn of the poses, and c
+//! its lever: positive on the right, negative on the left. A side whose readings never change their
+//! sign shows |D|. It is doubted where the best p |s + c φ| explains its ways and no p s + q φ
+//! does, at any delay of the poses, and where s + c φ has both signs. Late poses, slip and other
+//! units spoil both explanations or neither. For a drive that only goes forward, both are the same.
 
 use super::Run;
 use super::by_poses::{ByDelay, Row, larger, unexplained};
@@ -19,14 +18,16 @@ const MAX_OTHER_SIGN: f64 = 0.005;
 /// Least part of the squares that has to be unexplained without signs.
 const MIN_UNSIGNED_RESIDUAL: f64 = 0.05;
 
-/// Largest part that may be unexplained with signs, and its largest part of that without.
+/// Largest part that may be unexplained with signs, and its largest ratio to the part that is
+/// unexplained without them.
 const MAX_SIGNED_RESIDUAL: f64 = 0.15;
 const MAX_RESIDUAL_RATIO: f64 = 0.25;
 
 /// Least part of its way that a track has to have run the other way.
 const MIN_SHARE: f64 = 0.03;
 
-/// Least lever that is tried, m, the ratio of one to the next, and their number: up to 2.5 m.
+/// Levers that are tried: the least, m; the ratio of each to the one before; and their number. The
+/// largest is 2.7 m.
 const MIN_LEVER: f64 = 0.05;
 const LEVER_RATIO: f64 = 1.19;
 const LEVERS: i32 = 24;

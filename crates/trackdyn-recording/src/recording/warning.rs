@@ -279,12 +279,12 @@ pub enum Warning {
     },
 }
 
-/// Largest share of the poses that an IMU covers where the rest is worth a word.
+/// Largest share of covered poses at which an IMU still gets a warning about the rest.
 const MAX_COVERED_SHARE: f64 = 0.9;
 
 impl Warning {
-    /// Said of an IMU that covers a part of the poses of these runs; none of one that covers them,
-    /// or where there is none.
+    /// Warning of an IMU that covers only a part of the poses of these runs; none where it covers
+    /// them, or where there is no IMU.
     pub(super) fn imu_of_a_part(runs: &[Run]) -> Option<Self> {
         let (mut covered, mut of) = (0.0, 0.0);
         for run in runs {

@@ -27,7 +27,7 @@ mod corrections;
 
 use corrections::{MIN_CORRECTIONS, changes, corrections};
 
-/// Of so many poses, at most one lies between corrections where these come at every stamp: some
+/// Where corrections come at every stamp, at most one of so many poses lies between them: some
 /// messages are lost.
 const POSES_PER_LOST_CORRECTION: usize = 10;
 

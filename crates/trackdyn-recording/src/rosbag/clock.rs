@@ -1,17 +1,17 @@
 //! Clocks of topics: stamps against the times of logging.
 //!
 //! # Law
-//! A message is logged shortly after its stamp. Two topics have one clock where the medians of
-//! stamp − logging differ by no more than a sensor may be late, or those of the messages that are
-//! logged soonest: a driver that logs in bursts keeps the others back. Where both differ by more
-//! while both topics were logged over one time, their stamps cannot be compared, and logging dates
-//! both.
+//! A message is logged shortly after its stamp. Two topics have one clock where their medians of
+//! stamp − logging differ by no more than a sensor may be late. It is enough that those of the
+//! messages that are logged soonest do: a driver that logs in bursts holds the others back. Where
+//! both differ by more while both topics were logged over one time, their stamps cannot be
+//! compared, and logging dates both.
 //!
 //! Messages without stamps are dated by their logging; where the clock of the tracks runs at
-//! another [rate], by what that shows then.
+//! another [rate], they are dated by the time that it shows then.
 //!
-//! Stamps that most readings share with the one before, though they differ from it, are too coarse
-//! to date them: logging does it then, if it tells the readings apart.
+//! Stamps are too coarse where most readings have the stamp of the one before but other values.
+//! Logging then dates the readings, if it separates them.
 //!
 //! A stamp that steps back and stays back while logging goes on is a clock that was set anew, as by
 //! the reset of a simulation: what follows is another run.

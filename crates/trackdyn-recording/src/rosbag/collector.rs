@@ -44,7 +44,7 @@ use upright::{Inertial, upright};
 pub(super) struct Collector<'a> {
     options: &'a RosbagOptions,
     joints: Joints,
-    /// Of `control_msgs/DynamicJointState`, which often tell joints of other messages again.
+    /// Of `control_msgs/DynamicJointState`, which often repeats joints of other messages.
     dynamic_joints: Joints,
     signals: Signals,
     seen: Vec<Topic>,
@@ -222,8 +222,8 @@ impl Collector<'_> {
         (is_chain && are_of_it).then(|| [root.to_owned(), body.to_owned()])
     }
 
-    /// Whether the joints of `DynamicJointState` are taken: where those of other messages are none,
-    /// or never move as these do.
+    /// Whether the joints of `DynamicJointState` are taken: where other messages have no joints, or
+    /// where their joints never move while these do.
     fn takes_dynamic_joints(&self, warnings: &mut Vec<Warning>) -> bool {
         if !self.dynamic_joints.has_any() || !self.joints.has_any() {
             return self.dynamic_joints.has_any();

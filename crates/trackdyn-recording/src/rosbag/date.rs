@@ -22,11 +22,12 @@ impl<T> Received<T> {
     }
 }
 
-/// Values of a topic with the times at which they were measured, and what is to be said of these.
+/// Values of a topic with the times at which they were measured, and a warning where times are
+/// missing.
 ///
-/// Where no message has a stamp, all are dated by their logging. Where others have one, those
-/// without are left out: the first message of a simulation is stamped zero, and was logged years
-/// after its time.
+/// Where no message has a stamp, all are dated by their logging. Where some have one, the others
+/// are left out. The first message of a simulation is an example: it is stamped zero, and was
+/// logged years after that time.
 pub(super) fn dated<T>(
     topic: &str,
     received: Vec<Received<T>>,

@@ -23,8 +23,8 @@ const MAX_YAW_INTERVAL: i64 = 1_000_000_000;
 /// and of robots that slide on a slope.
 const MAX_COURSE_OFFSET: f64 = 0.35;
 
-/// Smallest mean resultant length of doubled angles between yaw and course: below, the yaw does not
-/// follow the course, as that of a compass, which counts clockwise.
+/// Smallest mean resultant length of doubled angles between yaw and course: below it, the yaw does
+/// not follow the course. That of a compass does not: it counts clockwise.
 const MIN_COURSE_AGREEMENT: f64 = 0.5;
 
 /// Largest scatter of the fixes, m, by which a course of that length can be told.

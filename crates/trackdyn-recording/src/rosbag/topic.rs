@@ -102,8 +102,9 @@ impl Layout {
         })
     }
 
-    /// Whether this layout is taken only where no other of its role is: such poses are plans and
-    /// goals more often than where a robot was, and such joints are those of a `JointState` again.
+    /// Whether this layout is taken only where no other layout has its role. Such poses are more
+    /// often plans and goals than where a robot was, and such joints repeat those of a
+    /// `JointState`.
     pub(super) fn is_second_choice(self) -> bool {
         matches!(
             self,

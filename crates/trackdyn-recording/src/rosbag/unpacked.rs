@@ -1,7 +1,8 @@
 //! How large packed data may be.
 
-/// Most bytes that a byte of packed data may stand for. Messages of a robot pack to a third or a
-/// twentieth, those of a robot that stands to a hundredth; what packs better would fill the memory.
+/// Most bytes that one byte of packed data may unpack to. Messages of a driving robot pack to
+/// between a third and a twentieth of their size, and those of a standing robot to a hundredth.
+/// Data that packs better could fill the memory.
 const MAX_RATIO: u64 = 200;
 
 /// Unpacked size that is accepted however well it packs, bytes.

@@ -1,8 +1,8 @@
 //! What a log has besides its rows, because a program wrote it until it was switched off.
 //!
-//! The last row is cut off, or is followed by text or by zeros that the disk never filled; a
-//! program that is started again writes the header again. What is odd is left out at the end only,
-//! where nothing but such rows follows: in the middle it is damage.
+//! The last row is cut off, or is followed by text or by zeros that the disk never filled. A
+//! program that is started again writes the header again. Odd rows are left out only at the end,
+//! where nothing but such rows follows. In the middle they are damage.
 
 use super::number::any_number;
 use crate::recording::Warning;
@@ -13,7 +13,8 @@ use std::path::Path;
 /// Most rows of an end.
 pub(super) const MAX_ROWS: usize = 20;
 
-/// Least rows of data for each row of an end: what is odd in a short table is a mistake.
+/// Least number of rows of data for each row of an end. In a shorter table, odd rows are a mistake
+/// and no end.
 const MIN_DATA: u64 = 10;
 
 /// The ends of a log.

@@ -50,7 +50,7 @@ pub(super) fn with_commas(text: &[u8], are_decimal: bool) -> Option<f64> {
     }
 }
 
-/// Whether a cell has a comma that parts no thousands: 1,234 may do so.
+/// Whether a cell has a comma that cannot separate thousands, as that of 1,234 can.
 pub(super) fn shows_decimal_comma(text: &[u8]) -> bool {
     let mut parts = text.split(|byte| *byte == b',');
     let (Some(whole), Some(fraction), None) = (parts.next(), parts.next(), parts.next()) else {

@@ -22,12 +22,12 @@ const CELLS: usize = 17;
 
 /// Pixels of the log as a page shows it.
 const PIXELS: f64 = 1000.0;
-/// Stretches of a cell at most.
+/// Most stretches of a cell.
 const MAX_STRETCHES: usize = 40;
 
 /// Radius of a steady point, pixels.
 const POINT: f64 = 6.0;
-/// Steady points at most that are shown one by one: more lie on each other.
+/// Most steady points that are shown one by one: more of them would overlap.
 const MAX_POINTS: usize = 1500;
 
 /// What a spot of the plane stands for: the samples of a cell, or one steady point.

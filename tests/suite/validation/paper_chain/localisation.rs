@@ -52,7 +52,7 @@ fn identified(drives: &[Drive], localised: &[Vec<LocalisedPose>]) -> (Recording,
     let runs = drives.iter().zip(localised).map(|(drive, poses)| drive.run(poses)).collect();
     let recording = Recording::new("eights", "Auriga-alpha", runs, Source::computed(), Vec::new())
         .expect("long enough");
-    // Least squares does not hang on the genetic algorithm.
+    // Least squares does not depend on the genetic algorithm.
     let genetic = GeneticOptions { generations: 1, ..GeneticOptions::default() };
     let options = Options { genetic, ..Options::new(GAUGE) };
     let found = identify(&recording, &options, &|_| ()).expect("enough segments");

@@ -25,8 +25,8 @@ pub enum Outcome {
     Diagnosed(Box<Diagnosis>),
 }
 
-/// The sets of effects that the diagnosis of a case leaves open. Those of constants alone are none
-/// of them: all that moves the constant ICRs is the same to every driver.
+/// The sets of effects that the diagnosis of a case leaves open. A set of constants alone does not
+/// count: no driving separates causes that move the constant ICRs alike.
 pub fn open_sets(case: &Judged) -> Vec<Vec<&str>> {
     let diagnosis = case.diagnosis().filter(|diagnosis| diagnosis.status == Status::Ambiguous);
     let claims = diagnosis.map_or(&[][..], |diagnosis| &diagnosis.missing);

@@ -6,8 +6,8 @@
 //!
 //! δV = V (A cos κ w + B sin κ w)
 //!
-//! so that each wave number κ has two columns for each side. Where a belt stands as a run begins,
-//! nobody knows: A and B are those of one run, or of a stretch of a long one.
+//! so that each wave number κ has two columns for each side. The place of a belt at the beginning
+//! of a run is unknown. So each run has its own A and B, and so has each stretch of a long run.
 
 use super::{Along, Part, Resolved};
 use crate::evidence::{Evidence, Origin, run_ranges};

@@ -8,9 +8,9 @@ use trackdyn_core::real;
 /// coarse.
 const MIN_COARSE_SHARE: f64 = 0.5;
 
-/// What a message says, of which it counts whether it is that of another one again.
+/// The content of a message, which is compared with that of another one.
 pub(in crate::rosbag) trait Reading {
-    /// Whether both say the same; what is no number in both is.
+    /// Whether both have the same content; NaN in both is the same.
     fn repeats(&self, other: &Self) -> bool;
 }
 

@@ -7,8 +7,8 @@ use crate::recording::Warning;
 use std::collections::BTreeMap;
 use trackdyn_core::Side;
 
-/// Part by which joints of a side may turn faster than another all along, without a word and at
-/// all: the mean of both is off by half of it.
+/// Largest shares by which a joint of a side may always turn faster than another: without a
+/// warning, and at all. The mean of both is off by half of it.
 const MAX_SILENT_DIFFERENCE: f64 = 0.02;
 const MAX_SPEED_DIFFERENCE: f64 = 0.05;
 

@@ -163,8 +163,8 @@ impl Sources<'_> {
         topics.any(|topic| may_be_odometry(&topic.kind, std::iter::once(&*key.parent)))
     }
 
-    /// An IMU is welcome and not needed: where several could be it, none is taken. One that stands
-    /// for the poses is it.
+    /// The IMU, which is optional. One that stands for the poses is taken. Otherwise none is taken
+    /// where several could be the IMU of the robot.
     pub(super) fn imu(
         &self,
         mut imu: BTreeMap<String, Vec<Received<Inertial>>>,

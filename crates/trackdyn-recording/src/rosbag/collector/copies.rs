@@ -1,8 +1,8 @@
-//! Runs that tell another one again: of a bag that was played twice while it was recorded.
+//! Runs that are copies of another run: a bag was played twice while it was recorded.
 //!
 //! # Law
-//! A run is a copy where nearly all of its readings and of its poses stand in another run with the
-//! same stamps and the same numbers, to the last bit. Noise repeats nowhere.
+//! A run is a copy if another run has nearly all of its readings and poses, with the same stamps
+//! and the same numbers to the last bit. Noise never repeats.
 
 use crate::recording::{UncheckedRun, Warning};
 use crate::sample::Sample;

@@ -1,5 +1,5 @@
-//! Several publishers of the joints: those that never move, or tell what others tell, are left out.
-//! One of the topic of another sends zeros between its readings.
+//! Several publishers of the joints. Those that never move, or that repeat what others send, are
+//! left out. A second publisher on a topic may send zeros between the readings of the first.
 //!
 //! # Law
 //! A message whose joints are all at exactly 0 and stand still, between two messages of fast

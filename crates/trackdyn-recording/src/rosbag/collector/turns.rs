@@ -1,10 +1,10 @@
 //! Positions of joints that wrap.
 //!
 //! # Law
-//! Where the jumps of a joint tell [modulo what](modulus) it is reported, it has wrapped where the
-//! shortest way goes on as the step before or after does, to a quarter of the modulus. Where they
-//! are too few to tell, a joint whose positions all lie within one turn wraps after a whole turn if
-//! the steps beside a jump agree. What it lacks is added from there on.
+//! Where the jumps of a joint determine its [modulus], a jump is a wrap if its shortest way
+//! continues the step before or after it, to a quarter of the modulus. Where there are too few
+//! jumps for that, a joint whose positions all lie within one turn wraps after a whole turn if the
+//! steps beside a jump agree. The missing turns are added from there on.
 //!
 //! # Assumes
 //! A joint turns by less than half of the modulus between two readings. Any other jump, such as

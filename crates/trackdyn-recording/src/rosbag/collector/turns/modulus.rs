@@ -1,18 +1,18 @@
-//! Modulo what a joint is reported.
+//! The modulus of the positions of a joint: the angle after which its reports begin anew.
 //!
 //! # Law
 //! Positions modulo M fill a range S ≤ M and jump by −M + u or M + u, where u is what the joint
 //! turned. Steps of more than S/2 are such jumps; u is the mean of the steps beside each. M is the
-//! median of what three or more jumps tell. A whole number of half turns is taken where it lies
-//! within the error of M, and of whole numbers, such as ticks, a whole number.
+//! median over three or more jumps. It is rounded to a whole number of half turns where that lies
+//! within its error. Where all positions are whole numbers, such as ticks, it is rounded to a whole
+//! number.
 //!
-//! Fewer jumps, or jumps of many sizes, are wraps of a whole turn or none. Whole numbers that fill
-//! the range of a counter of 8, 16 or 32 bits, and jump by as much, are its counts however few the
-//! jumps.
+//! Fewer jumps, or jumps of many sizes, determine no modulus. Whole numbers that jump by the range
+//! of a counter of 8, 16 or 32 bits are its counts, however few the jumps.
 //!
 //! # Assumes
-//! The joint turns by less than M/2 between two readings. Where it does not, it seems to turn by
-//! about M/2, or to reverse at once: its positions tell nothing then.
+//! The joint turns by less than M/2 between two readings. Where it turns further, it seems to turn
+//! by about M/2 or to reverse at once, and its positions determine nothing.
 
 use super::POSITION_ROUNDING;
 use std::f64::consts::{PI, TAU};
@@ -22,19 +22,19 @@ use trackdyn_core::robust::{deviation_about_zero, median};
 /// Fewest jumps that tell a modulus.
 const MIN_JUMPS: usize = 3;
 
-/// Largest spread of what single jumps tell, in M.
+/// Largest spread of the modulus between single jumps, as share of M.
 const MAX_SPREAD: f64 = 0.1;
 
-/// Largest standard error of M, in M: all speeds are off by as much.
+/// Largest standard error of M, as share of M: all speeds are off by the same share.
 const MAX_ERROR: f64 = 2e-3;
 
-/// Largest range of positions modulo M, in M: glitches and rounding.
+/// Largest range of positions modulo M, as share of M: a little above 1 for glitches and rounding.
 const MAX_RANGE: f64 = 1.001;
 
-/// Distance of M from a whole number of half turns that is rounding, in M.
+/// Distance from M up to which M is always rounded to a whole number of half turns, as share of M.
 const MIN_ROUNDING: f64 = 1e-3;
 
-/// Steps that may as well lead the other way, in M.
+/// Least step that may as well lead the other way, as share of M.
 const MIN_FAR_STEP: f64 = 0.45;
 
 /// Largest share of such steps, and of reversals at once, in the steps that are not zero.
@@ -46,18 +46,19 @@ const MIN_JUMP_SHARE: f64 = 0.1;
 /// Counts that fit into 8, 16 and 32 bits.
 const COUNTERS: [f64; 3] = [256.0, 65_536.0, 4_294_967_296.0];
 
-/// How far what a jump tells may be from such a number, in parts of it, and in counts.
+/// Largest error of a modulus by one jump against such a number: as share of it, and in counts.
 const MAX_COUNTER_ERROR: f64 = 2e-3;
 const MAX_COUNTS: f64 = 6.0;
 
 /// Modulo what positions are reported.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Modulus {
-    /// Nothing, or a whole turn that a few jumps cannot tell from another modulus.
+    /// No modulus, or too few jumps to tell which.
     Unknown,
-    /// This, rad.
+    /// This modulus, rad.
     Of(f64),
-    /// The joint turns too far between two readings; the range of its positions, rad.
+    /// Unclear, since the joint turns too far between two readings; holds the range of its
+    /// positions, rad.
     Unclear(f64),
 }
 
@@ -113,7 +114,7 @@ impl Modulus {
     }
 }
 
-/// How many counts a counter has, by its whole numbers, their range and what its jumps tell.
+/// How many counts a counter has, by its whole numbers, their range and the moduli by its jumps.
 fn of_counter(positions: &[f64], range: f64, told: &[f64]) -> Option<f64> {
     if told.is_empty() || positions.iter().any(|position| position.fract() != 0.0) {
         return None;

@@ -222,7 +222,7 @@ fn what_no_law_can_be_is_refused_by_name() {
         ("my-law", Declared::size("a b", "1", 1.0), "parameter \"a b\""),
         ("my-law", size().within([2.0, 3.0]), "typical value 1"),
         ("my-law", Declared::size("strength", "1", 0.0), "does nothing"),
-        ("my-law", size().with_role(Role::Shape), "no parameter is a size"),
+        ("my-law", Declared { role: Role::Shape, ..size() }, "no parameter is a size"),
     ] {
         let error = refused(id, parameter);
         assert!(error.contains(said) && error.contains(id), "{error}");

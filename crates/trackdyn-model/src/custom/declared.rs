@@ -102,12 +102,6 @@ impl Declared {
         Self { range, ..self }
     }
 
-    /// With this role.
-    #[must_use]
-    pub fn with_role(self, role: Role) -> Self {
-        Self { role, ..self }
-    }
-
     /// The parameter of a card, which lasts as long as the process.
     pub(super) fn parameter(&self) -> Parameter {
         let meaning = if self.meaning.is_empty() { &self.key } else { &self.meaning };

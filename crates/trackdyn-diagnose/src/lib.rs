@@ -10,7 +10,7 @@
 //! - [`fit`], [`normal`], [`equations`]: robust nonlinear least squares, and normal equations
 //!   summed by blocks; [`form`]: what the form of a law leaves.
 //! - [`base`]: what is free in every hypothesis: constant ICRs, encoders and pose sensor.
-//! - [`locate`], [`significance`], [`place`]: tests, without any effect, of where residuals depart
+//! - [`locate`], [`significance`], [`mismatch`]: tests, without any effect, of where residuals depart
 //!   from zero.
 //! - [`candidate`], [`search`]: the signature of every effect, and the search for the best
 //!   hypothesis.
@@ -45,9 +45,9 @@ pub mod hypothesis;
 pub mod isolability;
 pub mod locate;
 pub mod mechanics;
+pub mod mismatch;
 pub mod noise;
 pub mod normal;
-pub mod place;
 pub mod plan;
 pub mod prior;
 pub mod progress;

@@ -8,9 +8,10 @@
 //! noise ([`SegmentNoise`]): white noise R of each pose, shared by neighbouring segments, errors of
 //! its stamp, which displace it along the motion, a random walk q within each segment, and a
 //! wandering heading of the sensor that turns all later segments of a run.
-//! [`likely_noise`](trackdyn_estimate::likely_noise) finds its variances, corrected for the degrees
-//! of freedom of the fit, ½ ln det(Xᵀ V⁻¹ X), X the fitted columns: without that a walk, which is
-//! slow, would vanish into slow contrasts. The correction is taken as linear in the log variances.
+//! [`restricted_likelihood`](trackdyn_estimate::restricted_likelihood) finds its variances. They
+//! are corrected for the degrees of freedom of the fit, ½ ln det(Xᵀ V⁻¹ X), X the fitted columns:
+//! without that a walk, which is slow, would vanish into slow contrasts. The correction is taken as
+//! linear in the log variances.
 //!
 //! Physics that contrasts cannot represent is at first taken for a walk. Where a hypothesis
 //! explains more, noise is estimated again beside it, and accepted if the variance summed over a
@@ -30,7 +31,7 @@ use flexible::Flexible;
 use nalgebra::Vector3;
 use std::ops::Range;
 use trackdyn_core::{Pose, real};
-use trackdyn_estimate::likely_noise::{mean_squares, taken};
+use trackdyn_estimate::restricted_likelihood::{mean_squares, taken};
 use trackdyn_estimate::weighting::SegmentNoise;
 
 /// The evidence with noise estimated from the residuals of a fit. Tables of steady points keep
@@ -206,7 +207,7 @@ mod tests {
     use crate::settings::Settings;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
-    use trackdyn_estimate::likely_noise::{Variances, variances_of};
+    use trackdyn_estimate::restricted_likelihood::{Variances, variances_of};
     use trackdyn_recording::TrackSample;
 
     const TRUE_NOISE: SegmentNoise = SegmentNoise {

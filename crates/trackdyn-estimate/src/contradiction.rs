@@ -4,12 +4,12 @@ mod text;
 
 use crate::Interval;
 use crate::least_squares::Estimate;
-use crate::left_over::LeftOver;
 use crate::observations::Observations;
 use crate::parameters::Parameters;
 use crate::response::Response;
 use crate::run_clocks::OtherClock;
 use crate::spin_test::SpinTest;
+use crate::unexplained::LeftOver;
 use crate::weighting::SegmentNoise;
 use trackdyn_core::robust::quantile;
 use trackdyn_core::{PerSide, Side, settings_group};

@@ -21,7 +21,8 @@
 //! - [`sensor`]: clock and mount of the pose sensor, which can be fitted beside.
 //! - [`mod@residual_noise`]: the noise, where only the residuals of a model show it.
 //! - [`weighting`]: how much a residual counts: the cost (17), or the noise that was measured.
-//! - [`likely_noise`]: the noise that makes residuals most likely; [`variances`]: its steps.
+//! - [`restricted_likelihood`]: the noise by which residuals are most likely; [`variances`]: its
+//!   steps.
 //! - [`gauss_newton`]: robust least squares, whatever the residuals are of.
 //! - [`mod@spin_test`], [`mod@genetic`], [`mod@least_squares`]: three ways to the parameters.
 //! - [`response`]: how the poses follow the track speeds over time.
@@ -47,8 +48,6 @@ pub mod gyroscope;
 pub mod identification;
 pub mod interval;
 pub mod least_squares;
-mod left_over;
-pub mod likely_noise;
 pub mod noise;
 pub mod observations;
 pub mod odometry;
@@ -57,6 +56,7 @@ pub mod prediction;
 pub mod regular;
 pub mod residual_noise;
 pub mod response;
+pub mod restricted_likelihood;
 pub mod run_clocks;
 mod scatter;
 pub mod segment;
@@ -66,6 +66,7 @@ pub mod spin_test;
 pub mod steady;
 pub mod synthetic;
 pub mod thinned;
+mod unexplained;
 pub mod variances;
 pub mod weighting;
 pub mod yaw_rates;

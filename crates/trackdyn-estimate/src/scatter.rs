@@ -6,8 +6,8 @@
 //! likelihood.
 
 use crate::least_squares::{Estimate, residuals};
-use crate::likely_noise::{Search, taken};
 use crate::observations::Observations;
+use crate::restricted_likelihood::{Search, taken};
 use crate::weighting::{Seen, SegmentNoise, Weighting, Whitener};
 use nalgebra::Vector3;
 

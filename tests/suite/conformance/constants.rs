@@ -56,8 +56,8 @@ const ARGUED: &[Argued] = &[
     ("estimate", "gyroscope/level.rs", &["OBSERVATION_ROW"], "a value is the sum of both states"),
     ("estimate", "gyroscope/level.rs", &["VARIANCE_OF_MEDIAN"], "a property of the median"),
     ("estimate", "interval.rs", &["NORMAL_QUANTILE"], "quantile of a 95 % interval"),
-    ("estimate", "left_over.rs", &["RAYLEIGH_MEDIAN"], "a property of the normal distribution"),
-    ("estimate", "likely_noise.rs", &["STAMP"], "place of a variance"),
+    ("estimate", "unexplained.rs", &["RAYLEIGH_MEDIAN"], "a property of the normal distribution"),
+    ("estimate", "restricted_likelihood.rs", &["STAMP"], "place of a variance"),
     ("estimate", "noise/stamps.rs", &["STAMP"], "place of a variance"),
     ("estimate", "noise/triples.rs", &["STEPS"], "files name these steps in words"),
     ("estimate", "weighting.rs", &["COUNT"], "number of variances"),
@@ -145,7 +145,7 @@ const ARGUED: &[Argued] = &[
         "a diagnosis warns of these and goes on",
     ),
     ("estimate", "contradiction/text.rs", &["USUAL_EFFICIENCIES"], "an example in a message"),
-    ("estimate", "left_over.rs", &["MIN_WAY", "MAX_FITTED_SHARE"], "a diagnosis warns and goes on"),
+    ("estimate", "unexplained.rs", &["MIN_WAY", "MAX_FITTED_SHARE"], "a diagnosis warns and goes on"),
     ("estimate", "segment.rs", &["MIN_DURATION_SHARE"], "no segment of a diagnosis is too short"),
 ];
 

@@ -4,7 +4,7 @@ use super::judged::Judged;
 use crate::form::Forms;
 use crate::locate::cells::{Cell, cells};
 use crate::locate::{Location, Residual, icr_columns};
-use crate::place::sentence;
+use crate::mismatch::sentence;
 use crate::resampling::Resampling;
 use crate::search::Search;
 use crate::verdict::tolerated;

@@ -1,7 +1,7 @@
 //! How noise is told from what driving could explain.
 
 use trackdyn_core::settings_group;
-use trackdyn_estimate::likely_noise::Search;
+use trackdyn_estimate::restricted_likelihood::Search;
 use trackdyn_estimate::variances::Climb;
 
 settings_group! {

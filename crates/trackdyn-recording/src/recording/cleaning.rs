@@ -1,8 +1,8 @@
 //! Rows that cannot be used as they are.
 
 use super::finding::{Cleaning, Finding};
-use crate::far::{self, Parts};
 use crate::sample::{PoseSample, Sample, Series, Stream};
+use crate::stray_stamps::{self, Parts};
 use std::f64::consts::{PI, TAU};
 use trackdyn_core::robust::median;
 
@@ -57,7 +57,7 @@ pub(crate) fn clean<S: Sample>(series: &mut Series<S>, run: i64, cleanings: &mut
     }
     let first = kept.first().map_or(0.0, |&index| time(index));
     let times: Vec<f64> = kept.iter().map(|&index| time(index) - first).collect();
-    if let Parts::Main(main) = far::parts(&times)
+    if let Parts::Main(main) = stray_stamps::parts(&times)
         && main.len() < kept.len()
     {
         let wrong = if main.start > 0 { 0 } else { main.end };

@@ -18,8 +18,8 @@
 
 use super::date::{Received, seconds};
 use super::options::Dating;
-use crate::far::{self, Parts};
 use crate::recording::Warning;
+use crate::stray_stamps::{self, Parts};
 use trackdyn_core::robust::{median, quantile};
 
 mod coarse;
@@ -289,7 +289,7 @@ fn right_stamps(mut stamps: Vec<i64>) -> ([i64; 2], bool) {
     stamps.sort_unstable();
     let Some(&first) = stamps.first() else { return (ALL, false) };
     let times: Vec<f64> = stamps.iter().map(|stamp| seconds(first, *stamp)).collect();
-    let Parts::Main(main) = far::parts(&times) else { return (ALL, true) };
+    let Parts::Main(main) = stray_stamps::parts(&times) else { return (ALL, true) };
     // Other joints of the topic have stamps close to these: bounds lie within the gaps.
     let within_gap = |after: usize| {
         let before = stamps.get(after.checked_sub(1)?)?;

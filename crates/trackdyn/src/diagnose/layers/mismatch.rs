@@ -5,7 +5,7 @@ use crate::Diagnosis;
 use crate::viewer::{Actor, ROOT, plot};
 use nalgebra::Vector3;
 use trackdyn_diagnose::Weighted;
-use trackdyn_diagnose::place::{Regime, worst_regime};
+use trackdyn_diagnose::mismatch::{Regime, worst_regime};
 use trackdyn_export::viewer::{Plot, Tab, TextLayer, Trace};
 use trackdyn_report::figure::entry_colour;
 

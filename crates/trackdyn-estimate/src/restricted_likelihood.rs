@@ -1,4 +1,4 @@
-//! The noise of segments that makes their residuals most likely.
+//! Noise of segments by restricted likelihood: that which makes their residuals most likely.
 //!
 //! # Law
 //! White noise R of each pose, errors of its stamp, a random walk q within each segment, and a

@@ -10,8 +10,8 @@
 //! - [`fit`], [`normal`], [`equations`]: robust nonlinear least squares, and normal equations
 //!   summed by blocks; [`form`]: what the form of a law leaves.
 //! - [`base`]: what is free in every hypothesis: constant ICRs, encoders and pose sensor.
-//! - [`locate`], [`significance`], [`mismatch`]: tests, without any effect, of where residuals depart
-//!   from zero.
+//! - [`locate`], [`significance`], [`mismatch`]: tests of where residuals depart from zero, without
+//!   any effect.
 //! - [`candidate`], [`search`]: the signature of every effect, and the search for the best
 //!   hypothesis.
 //! - [`verdict`], [`uncertainty`], [`isolability`]: claims, intervals, and which effects can be

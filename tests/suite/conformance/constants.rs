@@ -145,7 +145,12 @@ const ARGUED: &[Argued] = &[
         "a diagnosis warns of these and goes on",
     ),
     ("estimate", "contradiction/text.rs", &["USUAL_EFFICIENCIES"], "an example in a message"),
-    ("estimate", "unexplained.rs", &["MIN_WAY", "MAX_FITTED_SHARE"], "a diagnosis warns and goes on"),
+    (
+        "estimate",
+        "unexplained.rs",
+        &["MIN_WAY", "MAX_FITTED_SHARE"],
+        "a diagnosis warns and goes on",
+    ),
     ("estimate", "segment.rs", &["MIN_DURATION_SHARE"], "no segment of a diagnosis is too short"),
 ];
 

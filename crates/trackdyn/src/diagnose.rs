@@ -291,10 +291,8 @@ impl Diagnosis {
 
     /// The diagnosis as a file (schema `trackdyn.diagnosis/1`).
     pub fn file(&self, provenance: &Provenance) -> DiagnosisFile {
-        let seed = Some(self.of.options.resampling.seed);
-        let source = Source { seed, ..self.of.source(provenance) };
         let gyroscope = self.of.evidence.gyroscope().map(|found| GyroscopeTable::of(found).into());
-        DiagnosisFile::new(&self.found, &source).with_gyroscope(gyroscope)
+        DiagnosisFile::new(&self.found, &self.of.seen(provenance)).with_gyroscope(gyroscope)
     }
 
     /// The text of `vehicle.corrected.toml`: the corrected vehicle, and in its first line where it

@@ -67,8 +67,8 @@ pub fn text(diagnosis: &Diagnosis) -> String {
         text += &wrapped("refused  ", &format!("{id}: {why}"));
     }
     if diagnosis.answer.status == Status::Unexplained {
-        let [_, most] = diagnosis.evidence.after.max_p;
-        let left = diagnosis.evidence.after.tests.iter().filter(|one| one.test.p < most);
+        let is_left = |symmetry: Symmetry| diagnosis.answer.left_over.contains(&symmetry);
+        let left = diagnosis.evidence.after.tests.iter().filter(|one| is_left(one.symmetry));
         let left: Vec<String> = left
             .map(|one| {
                 let test = &one.test;

@@ -143,8 +143,8 @@ impl Refusal {
             Self::TooMany { .. } => Rule::Rivals,
             Self::NearlyAsFiled { .. } => Rule::FiledSize,
             Self::WithinFiled { .. } => Rule::FiledLaws,
-            Self::MayBeNone => Rule::Interval,
-            Self::Nowhere => Rule::Place,
+            Self::MayBeNone { .. } => Rule::Interval,
+            Self::Nowhere { .. } => Rule::Place,
             Self::ConstantsAsFiled { .. } => Rule::Constants,
         }
     }

@@ -3,12 +3,12 @@
 use crate::wrapped::wrapped;
 use std::fmt::Write;
 use trackdyn::Diagnosis;
+use trackdyn::crates::core::rounding::decimals;
 use trackdyn::crates::diagnose::diagnosis::{Kind, Missing};
 use trackdyn::crates::diagnose::document::{ComparedTable, DriftTable, separate_by};
 use trackdyn::crates::diagnose::noise;
 use trackdyn::crates::diagnose::place::words;
 use trackdyn::crates::diagnose::proposal::Proposal;
-use trackdyn::crates::diagnose::proposal::words::decimals;
 use trackdyn::crates::diagnose::uncertainty::{Interval, Level};
 use trackdyn::crates::diagnose::verdict::Refusal;
 use trackdyn::crates::diagnose::{Diagnosis as Found, Status};

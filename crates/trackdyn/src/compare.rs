@@ -84,7 +84,7 @@ impl Prepared {
         };
         let of_sim = match settings.held_out {
             HeldOut::None => HeldOut::None,
-            HeldOut::EveryFourth | HeldOut::Runs(_) => HeldOut::EveryFourth,
+            HeldOut::ByRule | HeldOut::Runs(_) => HeldOut::ByRule,
         };
         let sets = [
             Set::of_any(sim, vehicle, &of_set(of_sim))?,

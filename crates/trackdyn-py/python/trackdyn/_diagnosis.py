@@ -187,6 +187,15 @@ class Diagnosis:
     def __reduce__(self) -> tuple[Any, ...]:
         return object.__new__, (Diagnosis,), self._said
 
+    def __copy__(self) -> Diagnosis:
+        made = object.__new__(Diagnosis)
+        made._take(self._said, self._inner)
+        return made
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Diagnosis:
+        # nothing of what is shared can be changed
+        return self.__copy__()
+
     def __repr__(self) -> str:
         claims = "; ".join(" or ".join(claim.one_of) for claim in self.claims)
         return f"<Diagnosis of {self.name}: {self.status}{f': {claims}' if claims else ''}>"
@@ -263,6 +272,10 @@ def diagnose(
         suspects anyway.
     progress : bool or callable
         Show a bar (tqdm), or call with stage, finished parts and all parts.
+
+    Returns
+    -------
+    Diagnosis
 
     Raises
     ------

@@ -80,8 +80,23 @@ class Figure:
             raise _values.refused("ax", ax, "axes of matplotlib")
         return draw(panels[_values.whole("panel", panel)], ax)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self.data,)
+
+    def __copy__(self) -> Figure:
+        return Figure(self._inner)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Figure:
+        # nothing of what is shared can be changed
+        return self.__copy__()
+
     def _repr_png_(self) -> bytes:
         return self.to_png()
 
     def __repr__(self) -> str:
         return f"<Figure {self.name}: {self.title}>"
+
+
+def _restored(data: dict[str, Any]) -> Figure:
+    """A figure from a pickle."""
+    return Figure(_trackdyn.Figure.restore(data))

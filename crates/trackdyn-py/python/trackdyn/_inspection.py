@@ -101,6 +101,17 @@ def inspect(
     **options
         How it is read, as for :func:`trackdyn.read_recording`. What a bag needs beyond that is
         found where it can be.
+
+    Returns
+    -------
+    Inspection
+
+    Raises
+    ------
+    RecordingError
+        For what cannot be read at all.
+    SettingError
+        For an option whose value is not accepted.
     """
     found = _trackdyn.inspect(
         _values.path("path", path),

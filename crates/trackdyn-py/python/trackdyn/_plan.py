@@ -12,25 +12,33 @@ from numpy.typing import NDArray
 from . import _trackdyn, _values
 from ._arguments import COMMAND, Progress, text_of_file, told, vehicle_of
 from ._diagnosis import Diagnosis
+from ._result import Result
 from ._vehicle import VehicleLike
 
 
-class Plan:
+class Plan(Result):
     """What to drive next, and what it separates."""
 
-    __slots__ = ("_inner",)
+    __slots__ = ()
+    _SAYS = {
+        "schedule": lambda inner: inner.schedule(),
+        "document": lambda inner: inner.document(COMMAND),
+    }
 
-    def __init__(self, inner: _trackdyn.Plan) -> None:
-        self._inner = inner
+    @staticmethod
+    def _compute(**made_from: Any) -> _trackdyn.Plan:
+        vehicle = made_from["vehicle"]._inner
+        return _trackdyn.plan(made_from["diagnosis"], vehicle, *made_from["settings"], None)
 
     @property
     def schedule(self) -> NDArray[np.float64] | None:
         """The commands, of shape (n, 3): t (s), v_left, v_right (m/s). None: no driving decides."""
-        return self._inner.schedule()
+        schedule: NDArray[np.float64] | None = self._say("schedule")
+        return schedule
 
     def to_dict(self) -> dict[str, Any]:
         """The plan, as ``plan.toml`` says it."""
-        return self._inner.document(COMMAND)
+        return dict(self._say("document"))
 
     def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
         """Write ``plan.csv``, a schedule for simulator and robot, and ``plan.toml``; the files."""
@@ -88,6 +96,7 @@ def plan(
         _values.maybe(_values.number, "noise_xy", noise_xy),
         _values.maybe(_values.number, "noise_yaw", noise_yaw),
     )
+    settings = (*limits, *noise)
     with told(progress, "plan") as tell:
-        inner = _trackdyn.plan(named, of._inner, *limits, *noise, tell)
-    return Plan(inner)
+        inner = _trackdyn.plan(named, of._inner, *settings, tell)
+    return Plan(inner, {"diagnosis": named, "vehicle": of, "settings": settings})

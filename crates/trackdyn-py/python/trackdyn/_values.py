@@ -41,6 +41,11 @@ def number(name: str, value: Any) -> float:
     raise refused(name, value, "a number")
 
 
+def is_number(value: Any) -> bool:
+    """Whether a value is a number."""
+    return isinstance(value, (int, float, np.integer, np.floating))
+
+
 def finite(name: str, value: Any) -> float:
     """A number that is finite."""
     found = number(name, value)

@@ -1,5 +1,6 @@
 """Laws of a user: effects beside the catalogue, as functions of Python."""
 
+import copy
 import math
 import pickle
 import subprocess
@@ -188,12 +189,106 @@ def test_a_pickle_brings_the_module_of_its_law(robot, tmp_path):
     done = subprocess.run(words, capture_output=True, text=True, check=False, cwd=here)
     assert done.stdout.strip() == "['my-snow:drag=150']", done.stderr
 
+
+def local_law(width):
+    """A law that no other process can import."""
+
     @td.law("my-local", parameters=SIZE)
     def my_local(at, strength):
-        return -strength * np.tanh(at.v_forward), 0.0
+        return -strength * np.tanh(at.v_forward / width), 0.0
 
-    with pytest.raises((pickle.PicklingError, AttributeError), match="my_local"):
-        pickle.dumps(robot.with_effect(my_local))
+    return my_local
+
+
+#: Reads a pickle of a law or a vehicle and drives with it; prints the last place.
+DRIVES = """
+import pickle, sys, trackdyn as td
+law = pickle.load(open(sys.argv[1], "rb"))
+robot = td.Vehicle("auriga-alpha").with_effect(law)
+truth = td.simulate(robot, "designed", runs=1, duration=6.0, inertia=False).truth
+print(repr(float(truth["x"][-1])), law.id, pickle.loads(pickle.dumps(law)) is law)
+"""
+
+
+def elsewhere(code, law, folder):
+    """What a process prints that has none of these modules and reads a pickle of a law."""
+    (folder / "law.pickle").write_bytes(pickle.dumps(law))
+    words = [sys.executable, "-c", code, str(folder / "law.pickle")]
+    done = subprocess.run(words, capture_output=True, text=True, check=False, cwd=folder)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.split()
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        local_law(0.2),
+        td.law("my-lambda", parameters=SIZE)(lambda at, strength: (-strength * at.v_forward, 0.0)),
+        lawful.my_snow,
+    ],
+)
+def test_a_law_goes_to_a_process_that_cannot_import_it(robot, law, tmp_path):
+    pytest.importorskip("cloudpickle")
+    x, id, is_same = elsewhere(DRIVES, law, tmp_path)
+    assert float(x) == driven(robot, law)["x"][-1] and id == law.id and is_same == "True"
+    assert pickle.loads(pickle.dumps(law)) is law is copy.deepcopy(law)
+
+
+def test_a_law_that_was_defined_again_is_sent_again():
+    pytest.importorskip("cloudpickle")
+    third, first, second = local_law(0.3), local_law(0.2), local_law(0.3)
+    assert first.fingerprint != second.fingerprint == third.fingerprint
+    old = pickle.dumps(first)
+    assert pickle.loads(pickle.dumps(second)) is second
+    again = pickle.loads(old)
+    assert again.fingerprint == first.fingerprint and again is not second
+
+
+def test_without_cloudpickle_it_is_said_what_to_do(robot, monkeypatch):
+    monkeypatch.setitem(sys.modules, "cloudpickle", None)
+    law = local_law(0.2)
+    for one in (law, robot.with_effect(law)):
+        with pytest.raises(pickle.PicklingError, match="pip install cloudpickle, or define the law"):
+            pickle.dumps(one)
+    assert pickle.loads(pickle.dumps(lawful.my_snow)) is lawful.my_snow
+
+
+def test_what_cannot_be_sent_is_told(robot):
+    pytest.importorskip("cloudpickle")
+    lock = threading.Lock()
+
+    @td.law("my-lock", parameters=SIZE)
+    def my_lock(at, strength):
+        with lock:
+            return -strength * np.tanh(at.v_forward), 0.0
+
+    with pytest.raises(pickle.PicklingError, match="'my-lock': its function cannot be sent"):
+        pickle.dumps(robot.with_effect(my_lock))
+
+
+def test_workers_of_dask_get_laws_of_modules_that_they_do_not_have(robot, tmp_path, monkeypatch):
+    distributed = pytest.importorskip("distributed")
+    (tmp_path / "own_helpers.py").write_text("def half(x):\n    return 0.5 * x\n")
+    (tmp_path / "own_laws.py").write_text(
+        "import own_helpers, trackdyn as td\n"
+        "@td.law('own-drag', parameters={'strength': td.Parameter('N s/m', 30.0)})\n"
+        "def own_drag(at, strength):\n"
+        "    return -strength * own_helpers.half(at.v_forward), 0.0\n"
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    import own_laws
+
+    monkeypatch.undo()
+    laws = [own_laws.own_drag, local_law(0.2)]
+    robots = [robot.with_effect(law) for law in laws]
+    with (
+        distributed.LocalCluster(1, threads_per_worker=1, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        found = client.map(td.simulate, robots, runs=1, duration=4.0)
+        for one, of in zip(client.gather(found, direct=False), robots):
+            expected = td.simulate(of, runs=1, duration=4.0).recording
+            assert one.recording.fingerprint == expected.fingerprint
 
 
 @pytest.fixture(scope="module")

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from . import _trackdyn, _values
 from ._errors import EffectError, SettingError
+from ._shipping import bytes_of, digest, function_of, has_cloudpickle, imported, is_importable
 from ._trace import Taped, traced
 
 #: An array of what a law sees, one number for each state.
@@ -204,6 +205,8 @@ class Law:
         Its parameters by their names.
     function : callable
         The function.
+    fingerprint : str
+        Fingerprint of its code, of the values around it, and of its parameters.
     breaks : str
         Letters of the symmetries of the ICRs that it breaks at typical values, see docs/effects.md.
     is_compiled : bool
@@ -229,6 +232,8 @@ class Law:
         self.__qualname__ = function.__qualname__
         self.__module__ = function.__module__
         self.__doc__ = function.__doc__
+        #: The function as bytes, where it was sent to another process or came from one.
+        self._sent: bytes | None = None
         self._check()
         counts = len(Seen._places[acts]), len(self.parameters), 3 if acts == "force" else 2
         samples = _samples(counts[0], self.parameters.values())
@@ -301,12 +306,52 @@ class Law:
         """Call the function."""
         return self.function(at, *args, **parameters)
 
-    def __reduce__(self) -> str:
-        return self.__qualname__
+    @property
+    def fingerprint(self) -> str:
+        """Fingerprint of its code, of the values around it, and of its parameters."""
+        return digest(self.function, (self.id, self.acts, self.parameters))
+
+    def __reduce__(self) -> str | tuple[Any, ...]:
+        has_name = is_importable(self)
+        if has_name and not has_cloudpickle():
+            return self.__qualname__
+        if self._sent is None:
+            self._sent = bytes_of(self.function, self.id)
+        name = (self.__module__, self.__qualname__) if has_name else None
+        return _received, (name, self._sent, self.id, self.acts, self.parameters, self.summary)
+
+    def __copy__(self) -> Law:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Law:
+        return self
 
     def __repr__(self) -> str:
         how = "compiled" if self.is_compiled else "called in the interpreter"
         return f"<Law {self.id}({', '.join(self.parameters)}), acts as {self.acts}, {how}>"
+
+
+def _received(
+    name: tuple[str, str] | None,
+    sent: bytes,
+    id: str,
+    acts: Literal["force", "friction"],
+    parameters: dict[str, Parameter],
+    summary: str,
+) -> Law:
+    """The law that another process sent: by its name, else by its function.
+
+    An error here would not reach the user of a cluster, who would wait for a worker for ever.
+    """
+    found = None if name is None else imported(*name)
+    if isinstance(found, Law):
+        return found
+    here = _LAWS.get(id)
+    if here is not None and here._sent == sent and here.parameters == parameters:
+        return here
+    made = Law(function_of(sent, id), id, acts, parameters, summary)
+    made._sent = sent
+    return made
 
 
 #: A law, or the id of one that was defined.
@@ -424,5 +469,5 @@ def _known(one: Any, name: str) -> Law:
 
 
 def of_ids(ids: Iterable[str]) -> tuple[Law, ...]:
-    """The laws of these ids, for pickles: reading one imports the module that defines it."""
+    """The laws of these ids, for pickles: reading one defines it in the process that reads."""
     return tuple(_LAWS[one] for one in ids if one in _LAWS)

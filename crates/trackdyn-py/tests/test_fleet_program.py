@@ -63,7 +63,7 @@ def test_options_of_reading_are_those_of_the_program(program):
         (["--gyro-unit", "rpm"], "--gyro-unit rpm: expected one of rad/s, deg/s"),
         (["--workers", "0"], "--workers 0: expected 1 or more"),
         (["--timeout", "0"], "--timeout 0.0: expected seconds above zero"),
-        (["--memory", "-1"], "--memory -1000000000.0: expected bytes above zero"),
+        (["--memory", "-1"], "--memory -1: expected GB above zero"),
         (["nothing/*"], "nothing/*: no such file"),
         (["--bogus"], "--bogus"),
     ],

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import pickle
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, Union
@@ -315,10 +316,13 @@ class Law:
         has_name = is_importable(self)
         if has_name and not has_cloudpickle():
             return self.__qualname__
+        return _received, self._parts((self.__module__, self.__qualname__) if has_name else None)
+
+    def _parts(self, name: tuple[str, str] | None) -> tuple[Any, ...]:
+        """What another process makes it from."""
         if self._sent is None:
             self._sent = bytes_of(self.function, self.id)
-        name = (self.__module__, self.__qualname__) if has_name else None
-        return _received, (name, self._sent, self.id, self.acts, self.parameters, self.summary)
+        return name, self._sent, self.id, self.acts, self.parameters, self.summary
 
     def __copy__(self) -> Law:
         return self
@@ -352,6 +356,17 @@ def _received(
     made = Law(function_of(sent, id), id, acts, parameters, summary)
     made._sent = sent
     return made
+
+
+def carried(law: Law) -> bytes:
+    """A law as bytes: what it does now, whatever module of its name another process has."""
+    return pickle.dumps(law._parts(None) if has_cloudpickle() else law)
+
+
+def received(sent: bytes) -> Law:
+    """The law of such bytes."""
+    parts = pickle.loads(sent)
+    return parts if isinstance(parts, Law) else _received(*parts)
 
 
 #: A law, or the id of one that was defined.
@@ -451,12 +466,19 @@ def _samples(
 
 def ids_of(laws: LawLike | Iterable[LawLike] | None, name: str = "laws") -> list[str]:
     """Ids of laws that were defined."""
+    return [law.id for law in several_of(laws, name)]
+
+
+def several_of(laws: LawLike | Iterable[LawLike] | None, name: str = "laws") -> list[Law]:
+    """Laws that were defined."""
     several: Any = laws
     if laws is None:
         several = []
     elif isinstance(laws, (Law, str)):
         several = [laws]
-    return [_known(one, name).id for one in several]
+    if not isinstance(several, Iterable):
+        raise _values.refused(name, laws, "a law, as @td.law makes it, or several")
+    return [_known(one, name) for one in several]
 
 
 def _known(one: Any, name: str) -> Law:

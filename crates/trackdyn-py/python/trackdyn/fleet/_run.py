@@ -59,8 +59,8 @@ def run(
         a datetime (of no zone: UTC) or to Unix seconds. Default: that group in ISO 8601, else the
         first stamp of the log where it is a date.
     diagnose : bool or mapping
-        Whether to diagnose, or keywords for :func:`trackdyn.diagnose`. It takes by far most of the
-        time; without it, there are ICRs and no claims.
+        Whether to diagnose, or keywords for :func:`trackdyn.diagnose`, such as ``{"laws": law}``.
+        It takes by far most of the time; without it, there are ICRs and no claims.
     identify : mapping, optional
         Keywords for :class:`trackdyn.IcrKinematics`, such as ``{"gyroscope": True}``.
     executor : concurrent.futures.Executor, optional
@@ -73,8 +73,8 @@ def run(
     timeout : float
         Time that a log may take, s. One that takes longer has a row that says so.
     memory : float, optional
-        Address space that a log may take, bytes; one that needs more has a row that says so.
-        Default: not bounded.
+        Address space that a log may take, bytes; one that needs more has a row that says so. Less
+        than a process has before it reads a log is refused. Default: not bounded.
     retry : bool
         Make rows again that are not "ok".
     progress : bool or callable

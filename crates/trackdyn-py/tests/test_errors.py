@@ -76,11 +76,6 @@ def test_what_is_not_determined_is_told(robot):
     assert str(raised.value).startswith(f"{log.name}: ")
 
 
-def test_an_unknown_keyword_is_a_type_error():
-    with pytest.raises(TypeError, match="wheel_radios"):
-        td.read_recording("x", wheel_radios=0.1)
-
-
 def test_what_callers_raise_comes_through(robot):
     def progress(stage, done, total):
         raise LookupError("mine")

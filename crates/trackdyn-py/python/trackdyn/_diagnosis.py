@@ -148,6 +148,11 @@ class Diagnosis:
 
         Layers of an earlier diagnosis go: write them after this.
 
+        Parameters
+        ----------
+        folder : str or path
+            Where they go. It is made where it is not there.
+
         Returns
         -------
         list of path
@@ -156,10 +161,20 @@ class Diagnosis:
         return list(self._computed().write(_values.path("folder", folder), COMMAND))
 
     def write_layers(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
-        """Write ``diagnosis.mcap`` for Foxglove, Rerun and PlotJuggler, and layouts; the files.
+        """Write ``diagnosis.mcap`` for Foxglove, Rerun and PlotJuggler, and layouts.
 
         In it are paths and ICRs as observed, by the vehicle as given and as corrected, whitened
         residuals before and after, and how the robot drives, as messages of ROS 2.
+
+        Parameters
+        ----------
+        folder : str or path
+            Where they go. It is made where it is not there.
+
+        Returns
+        -------
+        list of path
+            The files.
         """
         return list(self._computed().write_layers(_values.path("folder", folder), COMMAND))
 

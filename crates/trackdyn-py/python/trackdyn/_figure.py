@@ -51,7 +51,13 @@ class Figure:
         return self._inner.to_svg()
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the picture: SVG where the path ends so, else PNG."""
+        """Write the picture.
+
+        Parameters
+        ----------
+        path : str or path
+            SVG where it ends so, else PNG.
+        """
         place = Path(_values.path("path", path))
         is_svg = place.suffix == ".svg"
         picture = self.to_svg().encode() if is_svg else self.to_png()
@@ -70,6 +76,11 @@ class Figure:
             Which of the panels of :attr:`data`.
         ax : matplotlib axes, optional
             Default: the current ones.
+
+        Returns
+        -------
+        matplotlib axes
+            Those that were drawn on.
         """
         from ._axes import draw
 

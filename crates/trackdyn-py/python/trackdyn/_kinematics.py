@@ -95,12 +95,38 @@ class IcrKinematics:
         self.progress = progress
 
     def get_params(self, deep: bool = True) -> dict[str, Any]:
-        """The parameters of the estimator, by name."""
+        """The parameters of the estimator, by name.
+
+        Parameters
+        ----------
+        deep : bool
+            Not used: no parameter is an estimator.
+
+        Returns
+        -------
+        dict
+        """
         names = list(_inspect.signature(type(self).__init__).parameters)[1:]
         return {name: getattr(self, name) for name in names}
 
     def set_params(self, **params: Any) -> IcrKinematics:
-        """Set parameters of the estimator."""
+        """Set parameters of the estimator.
+
+        Parameters
+        ----------
+        **params
+            Values by the names of parameters.
+
+        Returns
+        -------
+        IcrKinematics
+            The estimator itself.
+
+        Raises
+        ------
+        SettingError
+            For a name that no parameter has.
+        """
         known = self.get_params()
         for name, value in params.items():
             if name not in known:
@@ -117,6 +143,11 @@ class IcrKinematics:
             Track speeds and poses, or a table of steady points.
         y : None
             Not used.
+
+        Returns
+        -------
+        IcrKinematics
+            The estimator itself.
 
         Raises
         ------
@@ -206,6 +237,11 @@ class IcrKinematics:
 
     def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
         """Write ``kinematics.toml``, ``kinematics_alpha.toml`` and ``identification.toml``.
+
+        Parameters
+        ----------
+        folder : str or path
+            Where they go. It is made where it is not there.
 
         Returns
         -------

@@ -294,7 +294,18 @@ class Law:
         return EffectError(f"{found}: expected {expected}")
 
     def with_values(self, **parameters: float) -> str:
-        """The law as an effect of a vehicle: ``"id:parameter=value,..."``."""
+        """The law as an effect of a vehicle.
+
+        Parameters
+        ----------
+        **parameters : float
+            Values of its parameters; others have their typical ones.
+
+        Returns
+        -------
+        str
+            ``"id:parameter=value,..."``.
+        """
         unknown = [key for key in parameters if key not in self.parameters]
         if unknown:
             names = ", ".join(self.parameters)
@@ -400,6 +411,18 @@ def law(
         on the friction at a point of the contact, or one along and one across the track.
     summary : str
         What reports say of it. Default: the first line of the docstring.
+
+    Returns
+    -------
+    callable
+        A decorator, which makes a :class:`Law` of a function.
+
+    Raises
+    ------
+    EffectError
+        For an id, a parameter or a result that no law can have.
+    SettingError
+        For a function that does not take the parameters.
 
     Examples
     --------

@@ -63,7 +63,9 @@ class IcrMap(Result):
 
     @staticmethod
     def _compute(**made_from: Any) -> _trackdyn.IcrMap:
-        return _trackdyn.icr_map(made_from["vehicle"]._inner, *made_from["settings"], None)
+        points, max_speed, position, heading, time = made_from["settings"]
+        vehicle = made_from["vehicle"]._inner
+        return _trackdyn.icr_map(vehicle, points, max_speed, position, heading, time, None)
 
     def _state(self) -> dict[str, Any]:
         return {"vehicle": self.vehicle, "table": self.table}
@@ -153,7 +155,18 @@ class IcrMap(Result):
         return self.table.to_frame()
 
     def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
-        """Write ``icr_map.png`` and, where the robot turns, ``kinematics.toml``; the files."""
+        """Write ``icr_map.png`` and, where the robot turns, ``kinematics.toml``.
+
+        Parameters
+        ----------
+        folder : str or path
+            Where they go. It is made where it is not there.
+
+        Returns
+        -------
+        list of path
+            The files.
+        """
         return list(self._inner.write(_values.path("folder", folder), COMMAND))
 
     def __repr__(self) -> str:

@@ -83,7 +83,18 @@ class MotionTable(Result):
         return np.reshape(self._inner.by_speed(left, right), (*shape, 3, 2))
 
     def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
-        """Write ``motion_table.toml`` and ``trackdyn_motion.h``; the files."""
+        """Write ``motion_table.toml`` and ``trackdyn_motion.h``.
+
+        Parameters
+        ----------
+        folder : str or path
+            Where they go. It is made where it is not there.
+
+        Returns
+        -------
+        list of path
+            The files.
+        """
         return list(self._inner.write(_values.path("folder", folder)))
 
     def __repr__(self) -> str:

@@ -109,17 +109,37 @@ class Odometry(Result):
         return list(csv.DictReader(io.StringIO(self._say("runs_csv"))))
 
     def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
-        """Write ``odometry.png``, ``runs.csv``, ``odometry.toml`` and trajectories; the files.
+        """Write ``odometry.png``, ``runs.csv``, ``odometry.toml`` and trajectories.
 
         Layers of an earlier replay go: write them after this.
+
+        Parameters
+        ----------
+        folder : str or path
+            Where they go. It is made where it is not there.
+
+        Returns
+        -------
+        list of path
+            The files.
         """
         return list(self._inner.write(_values.path("folder", folder), COMMAND))
 
     def write_layers(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
-        """Write ``odometry.mcap`` for Foxglove, Rerun and PlotJuggler, and layouts; the files.
+        """Write ``odometry.mcap`` for Foxglove, Rerun and PlotJuggler, and layouts.
 
         In it are the recorded path, those of the ideal drive and of each set of parameters, ICRs,
         track speeds, and residuals by segments, as messages of ROS 2.
+
+        Parameters
+        ----------
+        folder : str or path
+            Where they go. It is made where it is not there.
+
+        Returns
+        -------
+        list of path
+            The files.
         """
         return list(self._inner.write_layers(_values.path("folder", folder), COMMAND))
 

@@ -27,8 +27,9 @@ class Plan(Result):
 
     @staticmethod
     def _compute(**made_from: Any) -> _trackdyn.Plan:
-        vehicle = made_from["vehicle"]._inner
-        return _trackdyn.plan(made_from["diagnosis"], vehicle, *made_from["settings"], None)
+        diagnosis, vehicle = made_from["diagnosis"], made_from["vehicle"]._inner
+        fastest, duration, noise_xy, noise_yaw = made_from["settings"]
+        return _trackdyn.plan(diagnosis, vehicle, fastest, duration, noise_xy, noise_yaw, None)
 
     @property
     def schedule(self) -> NDArray[np.float64] | None:
@@ -41,7 +42,18 @@ class Plan(Result):
         return dict(self._say("document"))
 
     def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
-        """Write ``plan.csv``, a schedule for simulator and robot, and ``plan.toml``; the files."""
+        """Write ``plan.csv``, a schedule for simulator and robot, and ``plan.toml``.
+
+        Parameters
+        ----------
+        folder : str or path
+            Where they go. It is made where it is not there.
+
+        Returns
+        -------
+        list of path
+            The files.
+        """
         return list(self._inner.write(_values.path("folder", folder), COMMAND))
 
     def __repr__(self) -> str:

@@ -65,7 +65,18 @@ class Simulation(Result):
         return dict(self._say("document"))
 
     def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
-        """Write the recording, ``truth.csv`` and what it was made from; the files."""
+        """Write the recording, ``truth.csv`` and what it was made from.
+
+        Parameters
+        ----------
+        folder : str or path
+            Where they go. It is made where it is not there.
+
+        Returns
+        -------
+        list of path
+            The files.
+        """
         return list(self._inner.write(_values.path("folder", folder), COMMAND))
 
     def __repr__(self) -> str:

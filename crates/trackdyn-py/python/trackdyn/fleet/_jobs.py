@@ -78,7 +78,7 @@ def options_of(
         raise SettingError(f"memory {memory}: expected bytes above zero", "memory")
     if memory is not None and os.name == "nt":
         raise SettingError(f"memory {memory}: Windows bounds no process: expected none", "memory")
-    read = reading_of(**reading_options)
+    read = reading_of(reading_options)
     try:
         _trackdyn.Recording.open(os.devnull + ".no-recording", read)
     # all but the options is well

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .. import _values
 from .._arguments import Progress, told
@@ -19,6 +19,11 @@ from ._journal import Journal
 from ._known import known_rows
 from ._logs import RobotLike, TimeLike, find, name_all
 from ._outcome import Outcome
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from .._reading import ReadingOptions
 
 
 def run(
@@ -36,7 +41,7 @@ def run(
     memory: float | None = None,
     retry: bool = False,
     progress: bool | Progress | None = None,
-    **options: Any,
+    **options: Unpack[ReadingOptions],
 ) -> Outcome:
     """Identify and diagnose every log of a fleet: one row a log, errors too.
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from . import _trackdyn, _values
 from ._errors import EffectError, SettingError
 from ._shipping import bytes_of, digest, function_of, has_cloudpickle, imported, is_importable
-from ._trace import Taped, traced
+from ._trace import Taped, stand_in, traced
 
 #: An array of what a law sees, one number for each state.
 Column = NDArray[np.float64]
@@ -68,7 +68,7 @@ class Seen:
     slip, the pressure and the place of the point.
     """
 
-    __slots__ = ("_acts", "_columns")
+    __slots__ = ("_acts", "_columns", "_of_acts", "_read")
     _places: dict[str, dict[str, int]] = {
         acts: {name: place for place, name in enumerate(_trackdyn.law_arguments(acts))}
         for acts in _ADDS
@@ -77,16 +77,20 @@ class Seen:
     def __init__(self, acts: str, columns: Any) -> None:
         self._acts = acts
         self._columns = columns
+        self._of_acts = self._places[acts]
+        #: Columns that were read, a bit each.
+        self._read = 0
 
     def __len__(self) -> int:
         return len(self._columns[0])
 
     def _of(self, name: str) -> Column:
-        place = self._places[self._acts].get(name)
+        place = self._of_acts.get(name)
         if place is None:
             names = ", ".join(self._places[self._acts])
             found = f"{name}: a law that acts as {self._acts} does not see it"
             raise EffectError(f"{found}: expected {names}")
+        self._read |= 1 << place
         column: Column = self._columns[place]
         return column
 
@@ -212,8 +216,8 @@ class Law:
         Letters of the symmetries of the ICRs that it breaks at typical values, see docs/effects.md.
     is_compiled : bool
         Whether what the function does was noted, so that no interpreter is needed: tens of times
-        faster. It takes arithmetic, functions of numpy element by element, ``np.where``,
-        ``np.select``, ``np.clip``, ``np.interp`` and ``np.polyval``.
+        faster. It takes arithmetic, masks, ``if``, loops over elements, functions of numpy, math
+        and ``scipy.special`` element by element, and splines of ``scipy.interpolate``.
     """
 
     def __init__(
@@ -238,13 +242,18 @@ class Law:
         self._check()
         counts = len(Seen._places[acts]), len(self.parameters), 3 if acts == "force" else 2
         samples = _samples(counts[0], self.parameters.values())
-        tape = traced(self._adds, self._called, counts, samples)
+        function = stand_in(self.function)
+        def adds_of(columns: Sequence[Any], values: Sequence[Any]) -> list[Any]:
+            """What the function returns for what stands for arrays."""
+            return self._adds(Seen(self.acts, columns), values, function)
+
+        tape = traced(adds_of, self._evaluated, counts, samples)
 
         def trace(values: Sequence[float]) -> Taped | None:
             """What the function does at these values, where that depends on them."""
             at_values = [(columns, values) for columns, _ in samples]
-            adds = lambda columns, _: self._adds(columns, values)  # noqa: E731
-            return traced(adds, self._called, counts, at_values)
+            adds = lambda columns, _: adds_of(columns, values)  # noqa: E731
+            return traced(adds, self._evaluated, counts, at_values)
 
         can_trace = tape is None and all(trace(values) for _, values in samples)
         self.is_compiled = tape is not None or can_trace
@@ -263,9 +272,11 @@ class Law:
         except TypeError as error:
             raise SettingError(f"law {self.id!r}: its function: {error}: {expected}") from None
 
-    def _adds(self, columns: Sequence[Any], values: Sequence[Any]) -> list[Any]:
+    def _adds(
+        self, seen: Seen, values: Sequence[Any], function: Callable[..., Any]
+    ) -> list[Any]:
         """What the function returns, as a list with all that a law of this kind adds."""
-        found = self.function(Seen(self.acts, columns), **dict(zip(self.parameters, values)))
+        found = function(seen, **dict(zip(self.parameters, values)))
         least, most, expected = _ADDS[self.acts]
         is_list = isinstance(found, (tuple, list)) or getattr(found, "ndim", 1) > 1
         adds = list(found) if is_list else [found]
@@ -275,18 +286,28 @@ class Law:
             return [adds[0], adds[-1]]
         return [*adds, 0.0] if len(adds) == least else adds
 
-    def _called(self, columns: Any, values: Sequence[float]) -> NDArray[np.float64]:
+    def _evaluated(self, columns: Any, values: Sequence[float]) -> NDArray[np.float64]:
         """What the law adds, rows of all that a law of this kind adds."""
-        adds = self._adds(columns, values)
+        return self._called(columns, values)[0]
+
+    def _called(
+        self, columns: Any, values: Sequence[float]
+    ) -> tuple[NDArray[np.float64], int]:
+        """What the law adds, and the columns that the function read, a bit each."""
+        seen = Seen(self.acts, columns)
+        adds = self._adds(seen, values, self.function)
         count = columns.shape[1]
         rows = np.empty((len(adds), count))
         for row, result in zip(rows, adds):
+            if isinstance(result, np.ndarray) and result.shape == (count,) and result.dtype == float:
+                row[:] = result
+                continue
             array = _values.floats(result)
             if array is None or array.shape not in ((), (1,), (count,)):
                 found = f"a {type(result).__name__}" if array is None else f"shape {array.shape}"
                 raise self._refused(found, f"numbers of shape ({count},), as in what it sees")
             row[:] = array
-        return rows
+        return rows, seen._read
 
     def _refused(self, found: str, expected: str) -> EffectError:
         names = ", ".join(self.parameters)

@@ -140,7 +140,7 @@ def _feed_parts(sha: Any, value: Any, seen: set[int]) -> None:
         parts = [value.co_code, value.co_consts, value.co_names, value.co_varnames]
     elif isinstance(value, FunctionType):
         cells = [_content(cell) for cell in value.__closure__ or ()]
-        names = _names(value.__code__)
+        names = names_of(value.__code__)
         around = {name: value.__globals__[name] for name in names if name in value.__globals__}
         parts = [value.__code__, value.__defaults__, value.__kwdefaults__, cells, around]
     elif hasattr(value, "function") and hasattr(value, "parameters"):  # another law
@@ -154,9 +154,9 @@ def _feed_parts(sha: Any, value: Any, seen: set[int]) -> None:
         _feed(sha, part, seen)
 
 
-def _names(code: CodeType) -> list[str]:
+def names_of(code: CodeType) -> list[str]:
     """Names that code and the functions in it look up."""
-    inner = [name for one in code.co_consts if isinstance(one, CodeType) for name in _names(one)]
+    inner = [name for one in code.co_consts if isinstance(one, CodeType) for name in names_of(one)]
     return sorted({*code.co_names, *inner})
 
 

@@ -44,7 +44,7 @@ VERSION: Final[str]
 _Path = str | os.PathLike[str]
 _Progress = Callable[[str, int, int], object] | None
 _Gauge = Vehicle | float
-_Step = float | tuple[str, list[int]]
+_Step = float | tuple[str, list[int]] | tuple[list[float], list[list[float]], int]
 _Taped = tuple[list[_Step], list[int]]
 
 @final
@@ -259,7 +259,7 @@ def register_law(
     summary: str,
     acts: str,
     parameters: Sequence[Mapping[str, Any]],
-    function: Callable[[NDArray[np.float64], tuple[float, ...]], NDArray[np.float64]],
+    function: Callable[[NDArray[np.float64], tuple[float, ...]], tuple[NDArray[np.float64], int]],
     tape: _Taped | None,
     trace: Callable[[tuple[float, ...]], _Taped | None] | None,
 ) -> str: ...

@@ -50,7 +50,7 @@ def test_every_kind_is_an_error_and_a_usual_one():
             "nuisances lever",
             lambda of: td.IcrKinematics(0.42, nuisances="lever").fit(of),
         ),
-        (td.SettingError, "grid", "grid = 1: expected 2", lambda of: td.icr_map("maxxii", points=1)),
+        (td.SettingError, "points", "points 1: expected 2", lambda of: td.icr_map("maxxii", points=1)),
         (
             td.SettingError,
             "gyro_unit",

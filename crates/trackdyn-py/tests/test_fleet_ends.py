@@ -166,7 +166,8 @@ def test_an_executor_that_breaks_keeps_what_was_done(in_fleet, expected):
 @pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="no /proc tells of memory")
 def test_memory_in_which_nothing_starts_is_refused(in_fleet, capsys):
     for memory in (1e7, 5e7):
-        with pytest.raises(td.SettingError, match=rf"memory {memory:.0f}: expected \d+ bytes") as it:
+        words = rf"memory {memory:.0f}: expected \d+ bytes"
+        with pytest.raises(td.SettingError, match=words) as it:
             run("none.parquet", workers=1, memory=memory)
         assert it.value.setting == "memory" and not Path("none.parquet").exists()
     # in what is expected, the process starts, and what does not fit costs rows

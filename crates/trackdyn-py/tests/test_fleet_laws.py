@@ -26,7 +26,8 @@ def drag(width):
 def logs(model, tmp_path_factory):
     """A log, in a folder of its own."""
     folder = tmp_path_factory.mktemp("lawful")
-    drive = td.simulate(model.with_effect(lawful.my_snow, drag=400.0), runs=1, duration=25.0, seed=3)
+    snowy = model.with_effect(lawful.my_snow, drag=400.0)
+    drive = td.simulate(snowy, runs=1, duration=25.0, seed=3)
     drive.write(folder / "snow")
     return folder
 

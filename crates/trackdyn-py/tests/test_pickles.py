@@ -159,7 +159,8 @@ def test_results_show_the_same_in_another_process(results, kind, copy_of):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_results_write_the_same_files_in_another_process(results, kind, tmp_path):
-    files = [one.write(tmp_path / str(k)) for k, one in enumerate((results[kind], copied(results[kind])))]
+    both = results[kind], copied(results[kind])
+    files = [one.write(tmp_path / str(k)) for k, one in enumerate(both)]
     assert [path.name for path in files[0]] == [path.name for path in files[1]]
     for one, other in zip(*files):
         assert one.read_bytes() == other.read_bytes(), one

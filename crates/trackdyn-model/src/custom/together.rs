@@ -2,13 +2,13 @@
 //!
 //! # Why
 //! A call of a function in an interpreter takes longer than what it does for one state. Solving a
-//! motion or driving a run takes thousands of calls, one after the other. So works on several things
-//! go on side by side on one thread, each on a stack of its own: a work stops where it asks the law,
-//! and when all have stopped, the law is called for the states of all.
+//! motion or driving a run takes thousands of calls, one after the other. So works on several
+//! things go on side by side on one thread, each on a stack of its own. A work stops where it asks
+//! the law. When all have stopped, the law is called for the states of all.
 //!
 //! # Result
-//! Each work gets what it would get alone, as far as the function gives the same numbers for a state
-//! whatever states it is called with.
+//! Each work gets what it would get alone, as far as the function gives the same numbers for a
+//! state whatever states it is called with.
 
 #![expect(deprecated, reason = "works ask from deep within, where there is no scope at hand")]
 

@@ -299,10 +299,8 @@ class Law:
         count = columns.shape[1]
         rows = np.empty((len(adds), count))
         for row, result in zip(rows, adds):
-            if isinstance(result, np.ndarray) and result.shape == (count,) and result.dtype == float:
-                row[:] = result
-                continue
-            array = _values.floats(result)
+            is_row = isinstance(result, np.ndarray) and result.dtype == float
+            array = result if is_row else _values.floats(result)
             if array is None or array.shape not in ((), (1,), (count,)):
                 found = f"a {type(result).__name__}" if array is None else f"shape {array.shape}"
                 raise self._refused(found, f"numbers of shape ({count},), as in what it sees")

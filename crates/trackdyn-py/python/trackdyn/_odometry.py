@@ -200,9 +200,10 @@ def odometry(
     single = isinstance(parameters, Parameters) or _values.is_single(parameters)
     several: Any = [parameters] if single else list(parameters)  # type: ignore[arg-type]
     recording_of(recording)
+    of: Any = vehicle
     made_from = {
         "recording": recording,
-        "vehicle": vehicle if _values.is_number(vehicle) else vehicle_of(vehicle),  # type: ignore[arg-type]
+        "vehicle": of if _values.is_number(of) else vehicle_of(of),
         "parameters": several,
         "settings": (
             runs_of(runs),

@@ -12,8 +12,18 @@ from numpy.typing import NDArray
 from . import _trackdyn, _values
 from ._arguments import COMMAND, Progress, text_of_file, told, vehicle_of
 from ._diagnosis import Diagnosis
+from ._errors import DocumentError, VehicleError
 from ._result import Result
-from ._vehicle import VehicleLike
+from ._vehicle import Vehicle, VehicleLike
+
+
+def _beside(diagnosis: str) -> Vehicle:
+    """The vehicle that a diagnosis corrected."""
+    try:
+        return Vehicle(Path(diagnosis).with_name("vehicle.corrected.toml"))
+    except (DocumentError, VehicleError) as error:
+        expected = "expected beside the diagnosis, or vehicle"
+        raise type(error)(f"{error}\n{expected}", error.setting) from None
 
 
 class Plan(Result):
@@ -101,8 +111,9 @@ def plan(
         of = diagnosis.corrected_vehicle if vehicle is None else vehicle_of(vehicle)
     else:
         named = text_of_file(diagnosis, "diagnosis")
-        beside = Path(named[0]).with_name("vehicle.corrected.toml")
-        of = vehicle_of(beside if vehicle is None else vehicle)
+        # what is no diagnosis is said before a vehicle is sought beside it
+        _trackdyn.is_decided(named)
+        of = _beside(named[0]) if vehicle is None else vehicle_of(vehicle)
     limits = _values.number("fastest", fastest), _values.number("duration", duration)
     noise = (
         _values.maybe(_values.number, "noise_xy", noise_xy),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
+import threading
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -214,24 +215,25 @@ def _filled(number: float) -> Callable[..., Any]:
     real = np.zeros if number == 0.0 else np.ones
 
     def made(shape: Any = 1, *rest: Any, **keywords: Any) -> Any:
-        if shape in (1, (1,), [1]) and _current is not None:
-            return Traced(_current, _current.place(number))
-        is_pair = isinstance(shape, (tuple, list)) and len(shape) == 2 and _current is not None
-        if is_pair and shape[1] == 1:
+        tape: Tape | None = getattr(_current, "tape", None)
+        if tape is None:
+            return real(shape, *rest, **keywords)
+        if shape in (1, (1,), [1]):
+            return Traced(tape, tape.place(number))
+        if isinstance(shape, (tuple, list)) and len(shape) == 2 and shape[1] == 1:
             return Rows([made(1) for _ in range(shape[0])])
         return real(shape, *rest, **keywords)
 
     return made
 
 
-#: The tape of the function that is traced, for what takes nothing that is.
-_current: Tape | None = None
+#: The tape of the function that this thread traces, for what takes nothing that is traced.
+_current = threading.local()
 
 
 def set_current(tape: Tape | None) -> None:
     """Begin or end tracing with a tape."""
-    global _current
-    _current = tape
+    _current.tape = tape
 
 
 def _vectorize(pyfunc: Callable[..., Any] | None = None, *_: Any, **__: Any) -> Any:
@@ -357,9 +359,8 @@ def module_functions(module: Any) -> dict[str, Any]:
 
 
 def _either_of(module: Any, known: dict[str, Callable[..., Any]]) -> dict[str, Callable[..., Any]]:
-    return {
-        name: either(getattr(module, name), of) for name, of in known.items() if hasattr(module, name)
-    }
+    there = {name: of for name, of in known.items() if hasattr(module, name)}
+    return {name: either(getattr(module, name), of) for name, of in there.items()}
 
 
 def spline_of(value: Any) -> Callable[..., Any] | None:

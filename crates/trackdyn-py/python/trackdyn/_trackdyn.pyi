@@ -27,6 +27,7 @@ __all__ = [
     "icr_map",
     "identify",
     "inspect",
+    "is_decided",
     "law_arguments",
     "motion_table",
     "odometry",
@@ -307,6 +308,7 @@ def diagnose(
     keywords: Mapping[str, Any],
     progress: _Progress,
 ) -> Diagnosis: ...
+def is_decided(diagnosis: tuple[str, str]) -> bool: ...
 def plan(
     diagnosis: tuple[str, str],
     vehicle: Vehicle,

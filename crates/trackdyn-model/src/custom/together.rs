@@ -13,10 +13,11 @@
 #![expect(deprecated, reason = "works ask from deep within, where there is no scope at hand")]
 
 use super::{Batch, CustomLaw, Failure};
-use generator::{Gn, LocalGenerator, is_generator, yield_};
+use generator::{Generator, Gn, is_generator, yield_};
 use rayon::prelude::*;
-use std::cell::{Cell, RefCell};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 /// Largest number of works side by side on a thread.
@@ -70,22 +71,22 @@ pub(super) fn ask(law: &'static CustomLaw, at: &Batch, values: &[f64]) -> Answer
 }
 
 /// Does works side by side.
-fn on_one_thread<I, T>(things: &[I], work: &impl Fn(&I) -> T) -> Vec<T> {
-    let next = Cell::new(0);
-    let done: RefCell<Vec<Option<thread::Result<T>>>> =
-        RefCell::new(things.iter().map(|_| None).collect());
+fn on_one_thread<I: Sync, T: Send>(things: &[I], work: &(impl Fn(&I) -> T + Sync)) -> Vec<T> {
+    let next = AtomicUsize::new(0);
+    let done: Vec<Mutex<Option<thread::Result<T>>>> =
+        things.iter().map(|_| Mutex::default()).collect();
     let worker = || {
-        while let Some(thing) = things.get(next.get()) {
-            let place = next.replace(next.get() + 1);
-            let result = catch_unwind(AssertUnwindSafe(|| work(thing)));
-            done.borrow_mut()[place] = Some(result);
+        // of all workers, which are on one thread, one runs at a time
+        while let Some(place) = Some(next.fetch_add(1, Relaxed)).filter(|at| *at < things.len()) {
+            let result = catch_unwind(AssertUnwindSafe(|| work(&things[place])));
+            *done[place].lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
         }
         None
     };
-    let mut workers: Vec<LocalGenerator<'_, Answer, Option<Question>>> =
-        (0..things.len().min(MAX_TOGETHER))
-            .map(|_| Gn::new_scoped_opt_local(STACK_WORDS, |_| worker()))
-            .collect();
+    let count = things.len().min(MAX_TOGETHER);
+    let worker = |_| Gn::<Answer>::new_opt(STACK_WORDS, worker);
+    let mut workers: Vec<Generator<'_, Answer, Option<Question>>> =
+        (0..count).map(worker).collect();
     let mut asked: Vec<(usize, Question)> = Vec::with_capacity(workers.len());
     for (place, worker) in workers.iter_mut().enumerate() {
         asked.extend(worker.resume().flatten().map(|question| (place, question)));
@@ -94,7 +95,7 @@ fn on_one_thread<I, T>(things: &[I], work: &impl Fn(&I) -> T) -> Vec<T> {
         let answered = catch_unwind(AssertUnwindSafe(|| answers(&asked)));
         let answers = answered.unwrap_or_else(|panic| {
             // workers that are dropped now begin nothing else
-            next.set(things.len());
+            next.store(things.len(), Relaxed);
             resume_unwind(panic)
         });
         let before = std::mem::take(&mut asked);
@@ -103,11 +104,11 @@ fn on_one_thread<I, T>(things: &[I], work: &impl Fn(&I) -> T) -> Vec<T> {
         }
     }
     drop(workers);
-    let done = done.into_inner().into_iter();
-    let result = |one: Option<thread::Result<T>>| {
-        one.expect("every work has ended").unwrap_or_else(|panic| resume_unwind(panic))
+    let result = |one: Mutex<Option<thread::Result<T>>>| {
+        let one = one.into_inner().unwrap_or_else(PoisonError::into_inner);
+        one.expect("every work ends").unwrap_or_else(|panic| resume_unwind(panic))
     };
-    done.map(result).collect()
+    done.into_iter().map(result).collect()
 }
 
 /// Answers to questions, in their order.
@@ -169,8 +170,7 @@ fn answers_of_one_call(questions: &[&Question], states: usize) -> Vec<Answer> {
 mod tests {
     use super::super::{Argument, Declared, Kind, guarded};
     use super::*;
-    use std::sync::atomic::{AtomicUsize, Ordering};
-    use std::sync::{Arc, Mutex};
+    use std::sync::Arc;
 
     /// A law that adds its only value times the speed and keeps the sizes of its calls.
     fn counted(sizes: &Arc<Mutex<Vec<usize>>>) -> &'static CustomLaw {
@@ -238,11 +238,11 @@ mod tests {
         let started = AtomicUsize::new(0);
         let things = [1.0, 2.0, 3.0];
         let found = together(&things, true, |thing| {
-            started.fetch_add(1, Ordering::Relaxed);
+            started.fetch_add(1, Relaxed);
             together(&[10.0, 20.0], true, |inner| at(law, thing * inner, 2.0).expect("no seven")[0])
         });
         assert_eq!(found, [[20.0, 40.0], [40.0, 80.0], [60.0, 120.0]]);
         assert_eq!(*sizes.lock().expect("nobody panics"), [3, 3]);
-        assert_eq!(started.load(Ordering::Relaxed), 3);
+        assert_eq!(started.load(Relaxed), 3);
     }
 }

@@ -129,8 +129,8 @@ def by_number(v, factor):
     return max(math.sin(v), -0.2)
 
 
-def by_masks(at, strength):
-    force = strength * at.v_forward
+def by_masks(at, s):
+    force = s * at.v_forward
     is_fast = np.abs(at.yaw_rate) > 0.5
     force[is_fast] *= 2.0
     force[~is_fast] = force[~is_fast] + at.yaw_rate[~is_fast]
@@ -138,12 +138,12 @@ def by_masks(at, strength):
     return force, force.copy()
 
 
-def by_elements(at, strength):
+def by_elements(at, s):
     found = np.zeros(len(at.x))
     for k in range(len(at.x)):
         v = at.v_forward[k]
         if v > 1.0:
-            found[k] = strength * v
+            found[k] = s * v
         elif v < -1.0:
             found[k] = -1.0
         else:
@@ -151,14 +151,14 @@ def by_elements(at, strength):
     return found, np.array([v if abs(v) < 1.0 else 0.0 for v in at.yaw_rate])
 
 
-def by_any(at, strength):
+def by_any(at, s):
     """Questions of all states that change nothing for the others."""
     rate = at.yaw_rate
     if np.any(np.abs(rate) > 1.0):
         rate = np.where(np.abs(rate) > 1.0, np.sign(rate), rate)
     if (rate > 1e6).any():
         rate = 2.0 * rate
-    return strength * rate, 0.0
+    return s * rate, 0.0
 
 
 TRACEABLE = {

@@ -158,7 +158,7 @@ class IcrKinematics:
         """
         keywords = {
             "tau": _values.maybe(_values.finite, "tau", self.tau),
-            "settle": _values.maybe(_values.duration, "settle", self.settle),
+            "settle": _values.maybe(_values.number, "settle", self.settle),
             "nuisances": _values.texts("nuisances", self.nuisances),
             "gyroscope": _values.flag("gyroscope", self.gyroscope),
             "force": _values.flag("force", self.force),

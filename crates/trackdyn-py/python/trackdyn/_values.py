@@ -54,14 +54,6 @@ def finite(name: str, value: Any) -> float:
     return found
 
 
-def duration(name: str, value: Any) -> float:
-    """A time of 0 s or more."""
-    found = finite(name, value)
-    if found < 0.0:
-        raise refused(name, value, "0 s or more")
-    return found
-
-
 def whole(name: str, value: Any) -> int:
     """A whole number, also as a float without a fraction."""
     if not isinstance(value, (bool, np.bool_)):

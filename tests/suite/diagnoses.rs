@@ -369,7 +369,7 @@ fn progress_ends_at_its_total_and_an_observer_may_stop_it() {
     let told = told.into_inner().expect("one thread");
     assert!(told.is_sorted_by_key(|at| at.done), "{told:?}");
     assert!(told.iter().all(|at| at.total == STAGES));
-    assert_eq!(told.last().map(|at| (at.stage, at.done)), Some((Stage::Limits, STAGES)));
+    assert_eq!(told.last().map(|at| (at.stage, at.done)), Some((Stage::Correction, STAGES)));
     let stop = |at: Progress| match at.stage {
         Stage::Search => ControlFlow::Break(()),
         _ => ControlFlow::Continue(()),

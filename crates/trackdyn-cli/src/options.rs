@@ -12,24 +12,17 @@ use crate::stderr::note;
 use crate::wording::option;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
+use trackdyn::crates::core::real;
 use trackdyn::recording::{BagOptions, Columns, Dating, DoubtKind, JointSignal};
 use trackdyn::recording::{PoseAxes, PoseUnit, SpeedUnit};
 use trackdyn::{ActiveEffect, Circumstance, Part, ReadOptions, Recording, RunList, Symmetry};
-use trackdyn::{Effects, Pose, Stage};
+use trackdyn::{Effects, Limits, Pose, Stage};
 
 /// Headings of groups of options in helps.
 const PLACE: &str = "Place and time";
 const READING: &str = "How the recording is read";
 pub const PART: &str = "What of the recording counts";
 const VEHICLE: &str = "Vehicle";
-
-/// A default of the library for an option that takes a small count.
-///
-/// # Panics
-/// Where the count is not small.
-pub fn small(count: usize) -> u32 {
-    u32::try_from(count).expect("a small count")
-}
 
 /// Where the robot stands.
 #[derive(Args)]
@@ -459,13 +452,28 @@ pub fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A finite number from zero on.
+/// A number. The library says which ones it takes.
 ///
 /// # Errors
 /// What was expected.
-pub fn not_negative(text: &str) -> Result<f64, String> {
-    match finite(text) {
-        Ok(value) if value >= 0.0 => Ok(value),
-        _ => Err("expected a number from zero on".to_owned()),
-    }
+pub fn number(text: &str) -> Result<f64, String> {
+    text.parse().map_err(|_| "expected a number".to_owned())
+}
+
+/// A number within the limits of a setting.
+///
+/// # Errors
+/// What was expected.
+pub fn within(text: &str, limits: Limits) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|value| limits.hold(*value));
+    value.ok_or_else(|| format!("expected {limits}"))
+}
+
+/// A number of things within the limits of a setting.
+///
+/// # Errors
+/// What was expected.
+pub fn count_within(text: &str, limits: Limits) -> Result<usize, String> {
+    let count = text.parse().ok().filter(|count| limits.hold(real(*count)));
+    count.ok_or_else(|| format!("expected {limits}"))
 }

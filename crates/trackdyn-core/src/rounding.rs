@@ -1,4 +1,4 @@
-//! How many digits files keep of their numbers.
+//! How many digits files keep of their numbers, and how many show an uncertainty.
 //!
 //! What is below the last digit is rounding: it would differ between machines.
 
@@ -28,6 +28,14 @@ impl Digits {
 #[expect(clippy::cast_possible_truncation, reason = "between -324 and 308")]
 fn exponent(value: f64) -> i32 {
     value.abs().log10().floor() as i32
+}
+
+/// Decimals that show an uncertainty with one or two digits.
+pub fn decimals(half: f64) -> usize {
+    if half <= 0.0 || !half.is_finite() {
+        return 4;
+    }
+    usize::try_from((1 - exponent(half)).clamp(0, 7)).unwrap_or(4)
 }
 
 #[cfg(test)]

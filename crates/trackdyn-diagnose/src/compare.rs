@@ -33,12 +33,13 @@ use crate::resampling::Resampling;
 use crate::uncertainty::Uncertainty;
 use choice::Choice;
 use in_common::Sets;
+use shared::Shared;
 use std::collections::{BTreeMap, BTreeSet};
 use trackdyn_model::effect::Symmetry;
 use trackdyn_model::{ActiveEffect, EffectId, VehicleFile};
 
 /// Stages of a comparison, after the diagnoses of both sets.
-pub const STAGES: usize = 3;
+pub const STAGES: usize = 4;
 
 /// What a comparison says in a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -118,17 +119,32 @@ pub fn compare(
 ) -> Result<Comparison, Cancelled> {
     let choice = watch.try_stage(Stage::Differences, || Choice::best(both, watch))?;
     let uncertainties = [0, 1].map(|k| Uncertainty::of(&both[k].search, &choice.fits[k]));
-    let (groups, moved) =
-        watch.stage(Stage::Differences, || quantity::groups(both, &choice, &uncertainties))?;
-    let groups = level::with_level(groups, both, &choice);
-    let moved = moved.as_ref();
-    let compared = Sets { sets: both, choice: &choice, groups: &groups, moved };
-    let judged = difference::judge(compared, resampling);
-    let (judged, shared) = closer::judge(compared, judged);
+    let (groups, moved) = watch.stage(Stage::Differences, || {
+        let (groups, moved) = quantity::groups(both, &choice, &uncertainties);
+        (level::with_level(groups, both, &choice), moved)
+    })?;
+    let compared = Sets { sets: both, choice: &choice, groups: &groups, moved: moved.as_ref() };
+    let (judged, shared) = watch.stage(Stage::Differences, || {
+        closer::judge(compared, difference::judge(compared, resampling))
+    })?;
+    watch.stage(Stage::Differences, || {
+        let instruments = quantity::instruments(both, &choice, &uncertainties);
+        concluded(compared, (judged, &shared), instruments, file, resampling)
+    })
+}
+
+/// The comparison, from its judged groups.
+fn concluded(
+    compared: Sets,
+    (judged, shared): (Vec<Difference>, &Shared),
+    instruments: Vec<Group>,
+    file: &VehicleFile,
+    resampling: Resampling,
+) -> Comparison {
+    let Sets { sets: both, choice, groups, .. } = compared;
     let (differences, alike): (Vec<_>, Vec<_>) =
         judged.into_iter().partition(|one| one.refused.is_none());
-    watch.stage(Stage::Differences, || ())?;
-    let icrs = remainder::icrs(both, &choice);
+    let icrs = remainder::icrs(both, choice);
     let beside = |is_free: &dyn Fn(Subject) -> bool| {
         let free = groups.iter().filter(|group| is_free(group.subject));
         in_common::joint_beside(compared, free)
@@ -140,27 +156,26 @@ pub fn compare(
     let of_laws = remainder::misfit(&beside(&|one| is_constants(one) && is_named(one)))
         - remainder::misfit(&beside_named);
     let of =
-        |joint, explained| remainder::remainder(both, &choice, joint, &icrs, explained, resampling);
+        |joint, explained| remainder::remainder(both, choice, joint, &icrs, explained, resampling);
     let before = of(beside(&is_constants), 0.0);
     let beside_named = of(beside_named, of_laws.max(0.0));
-    let after = of(remainder::apart(both, &choice), 0.0);
+    let after = of(remainder::apart(both, choice), 0.0);
     let left = in_common::in_common(compared).joint.left();
     let cells = remainder::cells(both, &icrs, &left);
-    let closer = Closer::of(compared, &shared, file);
+    let closer = Closer::of(compared, shared, file);
     let not_shown = choice.effects.iter().flat_map(|&effect| {
         let lacking = [0, 1].into_iter();
         let lacking = lacking.filter(|&k| !choice.fits[k].effects.contains(&effect));
         lacking.map(|k| (effect, k)).collect::<Vec<_>>()
     });
     let not_shown = not_shown.collect();
-    let instruments = quantity::instruments(both, &choice, &uncertainties);
     let diagnoses = both.map(|set| set.diagnosis.clone());
     let constants = groups.iter().find(|group| is_constants(group.subject));
     let by_icrs = constants.map_or(Vec::new(), |group| constants::smallest(both, group));
     let smallest = smallest(&diagnoses, &by_icrs);
-    Ok(Comparison {
+    Comparison {
         smallest,
-        effects: choice.effects,
+        effects: choice.effects.clone(),
         filed: file.effects.iter().map(ActiveEffect::effect).collect(),
         diagnoses,
         differences,
@@ -172,7 +187,7 @@ pub fn compare(
         after,
         cells,
         closer,
-    })
+    }
 }
 
 /// Smallest difference of each size that would have shown: the variances of both sets add. An

@@ -62,6 +62,9 @@ pub struct Answer {
     pub status: Status,
     /// Symmetries that the evidence breaks, ascending.
     pub broken: Vec<Symmetry>,
+    /// Symmetries that the corrected model leaves broken by more than the form of its laws,
+    /// ascending.
+    pub left_over: Vec<Symmetry>,
     /// One sentence on where the model fails: channel, driving, symmetries.
     pub place: String,
     /// Claims: effects that the model lacks.

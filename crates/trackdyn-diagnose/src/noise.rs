@@ -84,15 +84,18 @@ fn estimated_again(evidence: &Weighted, flexible: &Flexible) -> Weighted {
 /// The evidence without samples at outlying poses, judged beside a fit with the present noise.
 pub fn without_outliers(evidence: &Weighted, fit: &Fit) -> Weighted {
     match evidence.noise() {
-        Some(noise) => cleaned(evidence.clone(), noise, &Flexible::new(evidence, fit)),
+        Some(noise) => {
+            let flexible = Flexible::new(evidence, fit);
+            // Outliers mask others, which are judged once the former are gone.
+            let without_more = |evidence: &Weighted| {
+                let lost = outliers(evidence, noise, &flexible.left(evidence).residual);
+                (!lost.is_empty()).then(|| evidence.without(&lost))
+            };
+            let rounds = std::iter::successors(Some(evidence.clone()), without_more);
+            rounds.last().expect("begins with the evidence")
+        }
         None => evidence.clone(),
     }
-}
-
-/// Outliers mask others, which are judged once the former are gone.
-fn cleaned(evidence: Weighted, noise: &SegmentNoise, flexible: &Flexible) -> Weighted {
-    let lost = outliers(&evidence, noise, &flexible.left(&evidence).residual);
-    if lost.is_empty() { evidence } else { cleaned(evidence.without(&lost), noise, flexible) }
 }
 
 /// The noise in words: error of each pose, and what is added per second.

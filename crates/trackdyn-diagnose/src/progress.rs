@@ -26,13 +26,15 @@ pub enum Stage {
     Proposal,
     /// Detection limits.
     Limits,
+    /// The corrected vehicle, and its dead reckoning.
+    Correction,
     /// Differences between two sets of recordings.
     Differences,
 }
 
 impl Stage {
     /// All stages of a diagnosis, in order.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Noise,
         Self::Readings,
         Self::Beginnings,
@@ -43,6 +45,7 @@ impl Stage {
         Self::HeldOut,
         Self::Proposal,
         Self::Limits,
+        Self::Correction,
     ];
 
     /// Name in a word or two.
@@ -58,6 +61,7 @@ impl Stage {
             Self::HeldOut => "held-out runs",
             Self::Proposal => "proposal",
             Self::Limits => "limits",
+            Self::Correction => "correction",
             Self::Differences => "differences",
         }
     }

@@ -69,6 +69,12 @@ impl Found {
     }
 }
 
+/// A hypothesis that is worth a refit: another one with more effects.
+struct Proposal {
+    beside: Found,
+    more: Vec<Screened>,
+}
+
 /// Evidence, base and candidates of a search, with its refits and those of earlier searches.
 pub struct Search {
     /// The evidence, with the noise used in the search.
@@ -189,77 +195,99 @@ impl Search {
         worthy.take_while(|one| one.gain > least).map(refit).collect()
     }
 
+    /// Value of a hypothesis in the search: an added effect must gain the required evidence;
+    /// leaving out or exchanging one must only not lose it.
+    fn value(&self, found: &Found) -> f64 {
+        #[expect(clippy::cast_precision_loss, reason = "at most three")]
+        let added = found.effects.len() as f64;
+        found.ln_evidence - self.settings().search.min_ln_evidence * added
+    }
+
+    /// Newton's law in one piece, and with what it does to the load, as far as it gains.
+    fn newtons(&self, nothing: &Found, watch: &Watch) -> Result<Vec<Found>, Cancelled> {
+        let newton = self.newton(nothing, watch)?;
+        let gains = newton.as_ref().filter(|newton| self.value(newton) > self.value(nothing));
+        let with_load = gains.map_or(Ok(None), |newton| self.with_load(newton, watch))?;
+        Ok(newton.into_iter().chain(with_load).collect())
+    }
+
+    /// The hypothesis with one effect more, refitted, and those with two more that are worth a
+    /// refit.
+    fn additions(
+        &self,
+        best: &Found,
+        watch: &Watch,
+    ) -> Result<(Vec<Found>, Vec<Proposal>), Cancelled> {
+        let settings = &self.settings().search;
+        if best.effects.len() >= settings.max_effects {
+            return Ok((Vec::new(), Vec::new()));
+        }
+        let mut screened = self.screen(best);
+        screened.retain(|one| !self.is_as_filed(one));
+        let singles = self.singles(best, &screened, watch)?;
+        if best.effects.len() + 2 > settings.max_effects {
+            return Ok((singles, Vec::new()));
+        }
+        let single = screened.first().map_or(0.0, |one| one.gain);
+        let least = single.max(0.0) + settings.min_ln_evidence;
+        let worthy = self.pairs(best, &screened).into_iter().filter(|(gain, _)| *gain > least);
+        let worthy = worthy.take(settings.max_refitted_pairs);
+        let pairs = worthy.map(|(_, pair)| Proposal { beside: best.clone(), more: pair.to_vec() });
+        Ok((singles, pairs.collect()))
+    }
+
+    /// The hypothesis with an effect exchanged for another one that is worth a refit; `reduced`
+    /// lacks each of its effects in turn.
+    fn exchanges(&self, best: &Found, reduced: &[Found]) -> Vec<Proposal> {
+        let settings = &self.settings().search;
+        let of_one = |(found, left_out): (&Found, &EffectId)| {
+            let screened = self.screen(found);
+            let own = screened.iter().find(|one| one.effect == *left_out);
+            let promised = own.map_or(f64::INFINITY, |own| own.gain);
+            let missed = (best.ln_evidence - found.ln_evidence).min(promised);
+            let least = settings.min_relative_gain * missed - settings.min_ln_evidence;
+            let others = screened
+                .into_iter()
+                .filter(|one| one.gain > least.max(0.0) && !best.effects.contains(&one.effect))
+                .filter(|one| !self.is_as_filed(one))
+                .take(settings.max_refitted_exchanges);
+            others
+                .map(|one| Proposal { beside: found.clone(), more: vec![one] })
+                .collect::<Vec<_>>()
+        };
+        reduced.iter().zip(&best.effects).flat_map(of_one).collect()
+    }
+
     /// The best hypothesis.
     ///
     /// # Errors
     /// [`Cancelled`], by the observer of the watch.
     pub fn best(&self, watch: &Watch) -> Result<Found, Cancelled> {
+        let value = |found: &Found| self.value(found);
         let settings = &self.settings().search;
-        let worth = settings.min_ln_evidence;
-        // An added effect must gain the required evidence; leaving out or exchanging one must only
-        // not lose it.
-        let value = |found: &Found| {
-            #[expect(clippy::cast_precision_loss, reason = "at most three")]
-            let added = found.effects.len() as f64;
-            found.ln_evidence - worth * added
-        };
         let nothing = self.nothing();
-        let newton = self.newton(&nothing, watch)?;
-        let with_load = match newton.as_ref().filter(|newton| value(newton) > value(&nothing)) {
-            Some(newton) => self.with_load(newton, watch)?,
-            None => None,
-        };
-        let mut whole: Vec<Found> = newton.into_iter().chain(with_load).collect();
+        let mut newtons = self.newtons(&nothing, watch)?;
         let earlier = self.again(&self.known.best).filter(|found| value(found) > value(&nothing));
         let mut best = earlier.unwrap_or(nothing);
         for _ in 0..settings.max_rounds {
-            let mut proposals: Vec<(Found, Vec<Screened>)> = Vec::new();
-            let mut singles: Vec<Found> = Vec::new();
-            if best.effects.len() < settings.max_effects {
-                let mut screened = self.screen(&best);
-                screened.retain(|one| !self.is_as_filed(one));
-                singles = self.singles(&best, &screened, watch)?;
-                if best.effects.len() + 2 <= settings.max_effects {
-                    let single = screened.first().map_or(0.0, |one| one.gain);
-                    let pairs = self.pairs(&best, &screened);
-                    let worthy =
-                        pairs.into_iter().filter(|(gain, _)| *gain > single.max(0.0) + worth);
-                    for (_, pair) in worthy.take(settings.max_refitted_pairs) {
-                        proposals.push((best.clone(), pair.to_vec()));
-                    }
-                }
-            }
+            let (singles, pairs) = self.additions(&best, watch)?;
             let without = |&effect: &EffectId| {
                 watch.go_on()?;
                 Ok(self.without(&best, effect))
             };
             let reduced: Vec<Found> =
                 best.effects.iter().map(without).collect::<Result<_, Cancelled>>()?;
-            for (found, left_out) in reduced.iter().zip(&best.effects) {
-                let screened = self.screen(found);
-                let own = screened.iter().find(|one| one.effect == *left_out);
-                let promised = own.map_or(f64::INFINITY, |own| own.gain);
-                let others = screened
-                    .into_iter()
-                    .filter(|one| one.gain > 0.0 && !best.effects.contains(&one.effect))
-                    .filter(|one| !self.is_as_filed(one));
-                let missed = (best.ln_evidence - found.ln_evidence).min(promised);
-                let least = settings.min_relative_gain * missed - worth;
-                let others = others.filter(|one| one.gain > least);
-                for one in others.take(settings.max_refitted_exchanges) {
-                    proposals.push((found.clone(), vec![one]));
-                }
-            }
-            let refitted = proposals.iter().map(|(beside, more)| {
+            let proposals = pairs.into_iter().chain(self.exchanges(&best, &reduced));
+            let refitted = proposals.map(|Proposal { beside, more }| {
                 watch.go_on()?;
-                Ok(self.refit(beside, more))
+                Ok(self.refit(&beside, &more))
             });
             let refitted: Vec<Found> = refitted.collect::<Result<_, Cancelled>>()?;
             let next = reduced
                 .into_iter()
                 .chain(singles)
                 .chain(refitted)
-                .chain(whole.drain(..))
+                .chain(newtons.drain(..))
                 .max_by(|a, b| value(a).total_cmp(&value(b)).then(b.effects.cmp(&a.effects)));
             match next {
                 Some(next) if value(&next) > value(&best) + settings.min_round_gain => {

@@ -13,11 +13,11 @@
 mod table;
 
 use nalgebra::Vector3;
-use rayon::prelude::*;
 use std::sync::Arc;
 use table::{Grid, Table};
 use trackdyn_core::{PerSide, Side, Twist, real};
 use trackdyn_model::contact::Resolution;
+use trackdyn_model::custom::together;
 use trackdyn_model::sectors::Spacing;
 use trackdyn_model::{Circumstance, Effects, Model, Vehicle};
 use trackdyn_model::{Icrs, Near, Stationary, Status};
@@ -202,11 +202,12 @@ impl Solved {
             let node = usable.then(|| beyond(speeds, &solution.twist) / scale.of(speeds));
             (node, solution.linearised.map(Near::Linearised))
         };
-        let sample: Vec<_> =
-            (0..Grid::NODES).into_par_iter().step_by(SAMPLE_STRIDE).map(solved).collect();
+        let share_calls = model.effects().share_calls();
+        let sampled: Vec<usize> = (0..Grid::NODES).step_by(SAMPLE_STRIDE).collect();
+        let sample = together(&sampled, share_calls, |index| solved(*index));
         let without = sample.iter().filter(|(node, _)| node.is_none()).count();
         let is_hopeless = real(without) > MAX_UNSOLVED_SAMPLE_SHARE * real(sample.len());
-        let node = |index: usize| {
+        let node = |&index: &usize| {
             if index.is_multiple_of(SAMPLE_STRIDE) {
                 sample[index / SAMPLE_STRIDE]
             } else if is_hopeless {
@@ -215,7 +216,8 @@ impl Solved {
                 solved(index)
             }
         };
-        let (nodes, starts) = (0..Grid::NODES).into_par_iter().map(node).unzip();
+        let all: Vec<usize> = (0..Grid::NODES).collect();
+        let (nodes, starts) = together(&all, share_calls, node).into_iter().unzip();
         Self { nodes, starts }
     }
 }

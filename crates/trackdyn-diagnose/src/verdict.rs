@@ -137,11 +137,13 @@ fn refusal(support: &Support, whole: f64, rules: &settings::Verdict) -> Option<R
 fn nearly_as_filed(search: &Search, found: &Fit, effect: EffectId) -> Option<Refusal> {
     let filed = search.base.as_filed.hypothesis.effect(effect)?;
     let found = found.hypothesis.effect(effect)?;
-    let near = sizes(effect).into_iter().all(|place| {
+    let changes = sizes(effect).into_iter().map(|place| {
         let [filed, found] = [filed, found].map(|effect| beyond_none(effect, place));
-        (found - filed).abs() <= search.settings().verdict.min_filed_change * filed.abs()
+        if found == filed { 0.0 } else { ((found - filed) / filed).abs() }
     });
-    near.then_some(Refusal::NearlyAsFiled { effect })
+    let (change, needed) =
+        (changes.fold(0.0, f64::max), search.settings().verdict.min_filed_change);
+    (change <= needed).then_some(Refusal::NearlyAsFiled { effect, change, needed })
 }
 
 /// Refuses an effect with a size at the limit of its physical range.
@@ -193,16 +195,18 @@ pub fn unless_unsure(verdict: Verdict, intervals: &[Interval], evidence: &Eviden
         let none = interval.unknown.parameter().map_or(0.0, neutral);
         (interval.low..=interval.high).contains(&none)
     };
-    let is_unsure = !sizes.is_empty() && sizes.iter().all(may_be_none);
-    let unsure = || is_unsure.then_some(Refusal::MayBeNone);
-    let is_anywhere = |interval: &Interval| {
+    let is_unsure = sizes.iter().all(may_be_none);
+    let first = sizes.first().filter(|_| is_unsure);
+    let unsure = || first.map(|interval| Refusal::MayBeNone { interval: **interval });
+    let anywhere = |interval: &Interval| {
         let role = interval.unknown.parameter().map(|parameter| parameter.role);
         let place = role.filter(|role| matches!(role, Role::Place { .. } | Role::Time));
-        place.is_some_and(|role| (interval.high - interval.low) / 2.0 > area(evidence, role)[1])
+        let needed = area(evidence, place?)[1];
+        let is_wide = (interval.high - interval.low) / 2.0 > needed;
+        is_wide.then_some(Refusal::Nowhere { interval: *interval, needed })
     };
     let mut own = intervals.iter().filter(|interval| interval.unknown.is_of(verdict.effect));
-    let nowhere = || own.any(is_anywhere).then_some(Refusal::Nowhere);
-    let refused = verdict.refused.clone().or_else(unsure).or_else(nowhere);
+    let refused = verdict.refused.clone().or_else(unsure).or_else(|| own.find_map(anywhere));
     Verdict { refused, ..verdict }
 }
 
@@ -240,7 +244,7 @@ mod tests {
             unless_unsure(verdict, &[interval], &driven()).refused
         };
         assert_eq!(refused(0.5), None);
-        assert_eq!(refused(150.0), Some(Refusal::Nowhere));
+        assert!(matches!(refused(150.0), Some(Refusal::Nowhere { .. })));
     }
 
     #[test]

@@ -35,6 +35,7 @@ mod differences;
 mod failure;
 mod law;
 mod symmetries;
+mod together;
 
 pub use active::ActiveLaw;
 pub(crate) use active::seen_at;
@@ -43,6 +44,7 @@ pub use batch::{Batch, Results};
 pub use declared::{Declared, DefinitionError};
 pub use failure::{Cause, Failure, guarded};
 pub use law::{CustomLaw, Outcome};
+pub use together::together;
 
 use std::sync::{PoisonError, RwLock};
 

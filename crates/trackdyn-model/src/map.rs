@@ -8,10 +8,12 @@ pub use grid::{Grid, GridError};
 pub use sector::Sector;
 pub use statistics::Statistics;
 
+use crate::custom::together;
 use crate::stationary::{Solution, Stationary, Status};
 use crate::{Circumstance, Model};
 use rayon::prelude::*;
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
 use trackdyn_core::PerSide;
 
 /// Stationary motions for every pair of track speeds of a grid.
@@ -26,7 +28,8 @@ pub struct IcrMap {
 }
 
 impl IcrMap {
-    /// Solves every pair in parallel. `progress` receives the number of pairs of each finished row.
+    /// Solves every pair in parallel. `progress` receives the number of pairs of each finished row,
+    /// or one for each pair where pairs share calls of a law.
     ///
     /// Each pair is solved independently from a cold start, so the map does not depend on the
     /// number of threads.
@@ -47,7 +50,7 @@ impl IcrMap {
             .expect("progress never asks to stop")
     }
 
-    /// Like [`IcrMap::solve`], but `progress` may cancel after a row: then there is no map.
+    /// Like [`IcrMap::solve`], but `progress` may cancel: then there is no map.
     pub fn solve_unless_stopped(
         model: &Model,
         grid: Grid,
@@ -56,12 +59,29 @@ impl IcrMap {
     ) -> Option<Self> {
         let solver = Stationary::new(model, circumstance);
         let speeds = grid.speeds();
+        let gauge = model.vehicle().gauge;
+        if model.effects().share_calls() {
+            let pairs: Vec<PerSide<f64>> = (speeds.iter())
+                .flat_map(|&left| speeds.iter().map(move |&right| PerSide::new(left, right)))
+                .collect();
+            let is_stopped = AtomicBool::new(false);
+            let solved = together(&pairs, true, |&pair| {
+                let is_wanted = || !is_stopped.load(Ordering::Relaxed);
+                let solution = is_wanted().then(|| solver.solve(pair))?;
+                if progress(1).is_break() {
+                    is_stopped.store(true, Ordering::Relaxed);
+                }
+                is_wanted().then_some(solution)
+            });
+            let solutions = solved.into_iter().collect::<Option<_>>()?;
+            return Some(Self { grid, solutions, gauge });
+        }
         let row = |&left: &f64| -> Option<Vec<Solution>> {
             let row = speeds.iter().map(|&right| solver.solve(PerSide::new(left, right))).collect();
             progress(speeds.len()).is_continue().then_some(row)
         };
         let rows: Option<Vec<Vec<Solution>>> = speeds.par_iter().map(row).collect();
-        Some(Self { grid, solutions: rows?.concat(), gauge: model.vehicle().gauge })
+        Some(Self { grid, solutions: rows?.concat(), gauge })
     }
 
     /// Solutions in which the robot turns; only these have ICRs.

@@ -1,6 +1,6 @@
 //! Diagnoses.
 
-use crate::errors::{raised, refused};
+use crate::errors::raised;
 use crate::figure::Figure;
 use crate::files::written;
 use crate::options::parsed;
@@ -41,9 +41,7 @@ pub struct Keywords {
 impl Keywords {
     fn settings(self) -> PyResult<DiagnoseSettings> {
         let held_out = self.held_out.map(|text| parsed::<HeldOut>("held_out", &text));
-        if !(1000..=100_000).contains(&self.draws) {
-            return Err(refused("draws", self.draws, "expected 1000 to 100000"));
-        }
+        DiagnoseSettings::DRAWS_LIMITS.check_count("draws", self.draws).map_err(raised)?;
         let laws = self.laws.iter().map(|id| id.parse::<EffectId>()).collect::<Result<_, _>>();
         let method = self.settings.map(|(name, text)| {
             MethodSettings::from_document(&Document::new(name, text))

@@ -2,7 +2,7 @@
 
 use crate::errors::raised;
 use pyo3::prelude::*;
-use pythonize::pythonize;
+use pythonize::{depythonize, pythonize};
 
 /// A figure.
 #[pyclass(frozen, module = "trackdyn._trackdyn")]
@@ -39,6 +39,12 @@ impl Figure {
     /// All of it as dicts and lists.
     fn data<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         Ok(pythonize(py, &self.inner)?)
+    }
+
+    /// The figure of such dicts and lists.
+    #[staticmethod]
+    fn restore(data: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Ok(Self { inner: depythonize(data)? })
     }
 
     /// The picture as PNG.

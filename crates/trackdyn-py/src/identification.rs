@@ -1,6 +1,6 @@
 //! Identification of the kinematics.
 
-use crate::errors::{raised, refused};
+use crate::errors::raised;
 use crate::files::written;
 use crate::options::parsed;
 use crate::parameters::Parameters;
@@ -57,6 +57,9 @@ impl OfGauge<'_> {
 
 impl Keywords {
     fn settings(self) -> PyResult<IdentifySettings> {
+        if let Some(settle) = self.settle {
+            IdentifySettings::SETTLE_LIMITS.check("settle", settle).map_err(raised)?;
+        }
         let nuisances = self.nuisances.iter().map(|name| parsed("nuisances", name));
         let mut settings = IdentifySettings {
             tau: self.tau,
@@ -68,18 +71,17 @@ impl Keywords {
         };
         settings.genetic.seed = self.seed;
         if let Some(population) = self.population {
-            settings.genetic.population = at_least_two("population", population)?;
+            let limits = IdentifySettings::POPULATION_LIMITS;
+            settings.genetic.population =
+                limits.check_count("population", population).map_err(raised)?;
         }
         if let Some(generations) = self.generations {
-            settings.genetic.generations = at_least_two("generations", generations)?;
+            let limits = IdentifySettings::GENERATIONS_LIMITS;
+            settings.genetic.generations =
+                limits.check_count("generations", generations).map_err(raised)?;
         }
         Ok(settings)
     }
-}
-
-fn at_least_two(setting: &str, value: usize) -> PyResult<usize> {
-    let is_enough = value >= 2;
-    is_enough.then_some(value).ok_or_else(|| refused(setting, value, "expected at least 2"))
 }
 
 /// Identifies the kinematic parameters of a robot.

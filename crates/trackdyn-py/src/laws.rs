@@ -60,7 +60,8 @@ pub fn law_arguments(acts: &str) -> PyResult<Vec<&'static str>> {
 }
 
 /// Registers a law whose function takes columns and the values of its parameters, and gives rows of
-/// what it adds; the letters of the symmetries that it breaks.
+/// what it adds and the columns that it read, a bit each; the letters of the symmetries that it
+/// breaks.
 ///
 /// Where a `tape` says what the function does, it is done in its place, without the interpreter.
 /// `trace` gives the tape for values of the parameters, where that depends on them, or None.
@@ -82,6 +83,8 @@ pub fn register_law(
     let called = move |at: &Batch, values: &[f64], adds: &mut Results| {
         Python::attach(|py| called(py, &function, kind, at, values, adds))
     };
+    // what a step does not read, it does not depend on
+    let read_by = |tape: &Tape| tape.reads().into_iter().fold(0, |all, place| all | 1_u32 << place);
     let law = match (tape, trace) {
         (Some((steps, results)), _) => {
             let tape = Tape::new(counts, &steps, results)?;
@@ -97,15 +100,21 @@ pub fn register_law(
             let retraced = Retraced::new(counts, trace);
             CustomLaw::new(kind, id, summary, &parameters, move |at, values, adds| {
                 match retraced.tape(values)? {
-                    Some(tape) => tape.evaluate(at, values, adds),
+                    Some(tape) => {
+                        adds.read(read_by(&tape));
+                        tape.evaluate(at, values, adds);
+                    }
                     None => called(at, values, adds)?,
                 }
                 Ok(())
             })
         }
-        (None, None) => CustomLaw::new(kind, id, summary, &parameters, move |at, values, adds| {
-            Ok(called(at, values, adds)?)
-        }),
+        (None, None) => {
+            let law = CustomLaw::new(kind, id, summary, &parameters, move |at, values, adds| {
+                Ok(called(at, values, adds)?)
+            });
+            law.map(CustomLaw::shared)
+        }
     };
     let law = law.map_err(raised)?;
     let law = register(law).map_err(raised)?;
@@ -129,7 +138,7 @@ pub fn taped<'py>(
     Ok(PyArray1::from_vec(py, adds).reshape([counts[2], rows])?.into_any())
 }
 
-/// Calls the function with columns; its rows are what the law adds.
+/// Calls the function with columns. It gives rows of what the law adds, and which columns it read.
 fn called(
     py: Python<'_>,
     function: &Py<PyAny>,
@@ -141,7 +150,8 @@ fn called(
     let shape = [kind.arguments().len(), at.len()];
     let columns = PyArray1::from_slice(py, at.columns()).reshape(shape)?;
     let found = function.bind(py).call1((columns, PyTuple::new(py, values)?))?;
-    let found: PyReadonlyArray2<'_, f64> = found.extract()?;
+    let (found, read): (PyReadonlyArray2<'_, f64>, u32) = found.extract()?;
+    adds.read(read);
     let found = found.as_slice()?;
     let adds = adds.columns();
     if found.len() != adds.len() {

@@ -53,7 +53,7 @@ mod _trackdyn {
     #[pymodule_export]
     use super::parameters::Parameters;
     #[pymodule_export]
-    use super::plan::{Plan, plan};
+    use super::plan::{Plan, is_decided, plan};
     #[pymodule_export]
     use super::recording::Recording;
     #[pymodule_export]

@@ -1,7 +1,7 @@
 //! ICR maps.
 
 use crate::arrays::Table;
-use crate::errors::{refused, said};
+use crate::errors::refused;
 use crate::figure::Figure;
 use crate::files::written;
 use crate::parameters::Parameters;
@@ -12,6 +12,7 @@ use pyo3::types::PyDict;
 use std::path::PathBuf;
 use std::sync::Arc;
 use trackdyn::crates::core::frames::ros_twist_from_paper;
+use trackdyn::crates::model::map::GridError;
 use trackdyn::crates::model::stationary::{Solution, Status};
 use trackdyn::{Circumstance, Grid, MapSettings, Provenance};
 
@@ -44,8 +45,11 @@ pub fn icr_map(
     }
     let grid = Grid::new(points, max_speed);
     let grid = grid.map_err(|error| {
-        let message = error.to_string();
-        said(message.split(" = ").next().unwrap_or_default(), &message)
+        let expected = format!("expected {}", error.expected());
+        match error {
+            GridError::Points(_) => refused("points", points, &expected),
+            _ => refused("max_speed", max_speed, &expected),
+        }
     })?;
     let circumstance = Circumstance { position, heading, time };
     let settings = MapSettings { grid, circumstance };

@@ -18,6 +18,13 @@ pub struct Plan {
     inner: trackdyn::Plan,
 }
 
+/// Whether a diagnosis leaves nothing open between several effects, by the text of its file.
+#[pyfunction]
+pub fn is_decided(diagnosis: (String, String)) -> PyResult<bool> {
+    let (name, text) = diagnosis;
+    Ok(OpenQuestions::from_document(Document::new(name, text)).map_err(raised)?.is_empty())
+}
+
 /// Plans the driving that separates what a diagnosis left open, by the text of its file.
 #[pyfunction]
 #[pyo3(signature = (diagnosis, vehicle, fastest, duration, noise_xy, noise_yaw, progress))]

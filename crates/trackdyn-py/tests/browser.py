@@ -1,28 +1,43 @@
-"""A browser without a window, driven as the standard of WebDriver says."""
+"""A browser without a window, driven over two pipes by the DevTools protocol."""
 
 from __future__ import annotations
 
 import json
+import os
+import select
 import shutil
-import socket
 import subprocess
+import sys
+import tempfile
 import time
-import urllib.error
-import urllib.request
 from pathlib import Path
 from typing import Any
 
-PROGRAMS = "chromium", "chromium-browser", "google-chrome"
-DRIVER = "chromedriver"
+PROGRAMS = "chromium", "chromium-browser", "google-chrome", "chrome"
 OPTIONS = """--headless --no-sandbox --disable-gpu --disable-quic --no-first-run
---disable-background-networking --disable-component-update --disable-sync""".split()
+--disable-background-networking --disable-component-update --disable-sync
+--remote-debugging-pipe""".split()
+
+#: Time that the browser has for an answer, s.
+PATIENCE = 60.0
+
+#: What keys are, and what they write.
+KEYS = {
+    "Enter": {"key": "Enter", "code": "Enter", "windowsVirtualKeyCode": 13, "text": "\r"},
+    "ArrowRight": {"key": "ArrowRight", "code": "ArrowRight", "windowsVirtualKeyCode": 39},
+    "0": {"key": "0", "code": "Digit0", "windowsVirtualKeyCode": 48, "text": "0"},
+}
 
 
 def missing() -> str:
-    """What is not installed; empty where all is."""
-    programs = [name for name in PROGRAMS if shutil.which(name)]
-    wanted = [] if programs else ["Chromium"]
-    return " and ".join(wanted + ([] if shutil.which(DRIVER) else [DRIVER]))
+    """Why no page can be opened here; empty where one can."""
+    if sys.platform == "win32":
+        return "the pipes of the browser are those of POSIX"
+    return "" if _program() else f"none of {', '.join(PROGRAMS)} is installed"
+
+
+def _program() -> str | None:
+    return next((path for path in map(shutil.which, PROGRAMS) if path), None)
 
 
 def is_own(url: str) -> bool:
@@ -31,97 +46,150 @@ def is_own(url: str) -> bool:
 
 
 class Browser:
-    """Chromium with a profile of its own, on a screen of this width."""
+    """Chromium with a profile of its own, and a page on a screen of this width."""
 
     def __init__(self, profile: Path, width: int, scheme: str) -> None:
-        with socket.socket() as free:
-            free.bind(("127.0.0.1", 0))
-            self._port = free.getsockname()[1]
-        self._driver = subprocess.Popen(
-            [DRIVER, f"--port={self._port}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-        )
-        self._session = ""
+        self._events: list[dict[str, Any]] = []
+        self._asked = 0
+        self._rest = b""
+        self._session: str | None = None
+        self._words = tempfile.TemporaryFile()
+        program = _program()
+        assert program is not None, missing()
+        # the browser reads at its descriptor 3 and writes at 4
+        its_input, self._to = os.pipe()
+        self._from, its_output = os.pipe()
         try:
-            self._until_ready()
-            screen = {"width": width, "height": 844, "pixelRatio": 1.0, "mobile": width < 500}
-            chromium = {
-                "binary": next(path for path in map(shutil.which, PROGRAMS) if path),
-                "args": [*OPTIONS, f"--user-data-dir={profile}"],
-                "mobileEmulation": {"deviceMetrics": screen},
-            }
-            wanted = {
-                "browserName": "chrome",
-                "goog:chromeOptions": chromium,
-                "goog:loggingPrefs": {"browser": "ALL", "performance": "ALL"},
-            }
-            made = self._ask("POST", "/session", {"capabilities": {"alwaysMatch": wanted}})
-            self._session = f"/session/{made['sessionId']}"
+            self._browser = subprocess.Popen(
+                [
+                    sys.executable,
+                    "-c",
+                    _AT_3_AND_4.format(its_input, its_output),
+                    program,
+                    *OPTIONS,
+                    f"--user-data-dir={profile}",
+                ],
+                stdin=subprocess.DEVNULL,
+                stdout=self._words,
+                stderr=self._words,
+                pass_fds=(its_input, its_output),
+            )
+        finally:
+            os.close(its_input)
+            os.close(its_output)
+        try:
+            page = self._ask("Target.createTarget", {"url": "about:blank"})["targetId"]
+            attached = self._ask("Target.attachToTarget", {"targetId": page, "flatten": True})
+            self._session = attached["sessionId"]
+            for domain in ("Page", "Runtime", "Log", "Network"):
+                self._ask(f"{domain}.enable")
+            screen = {"width": width, "height": 844, "deviceScaleFactor": 1, "mobile": width < 500}
+            self._ask("Emulation.setDeviceMetricsOverride", screen)
             media = [{"name": "prefers-color-scheme", "value": scheme}]
-            self._tell("Emulation.setEmulatedMedia", {"features": media})
+            self._ask("Emulation.setEmulatedMedia", {"features": media})
         except BaseException:
             self.close()
             raise
 
-    def _until_ready(self) -> None:
-        for _ in range(200):
-            try:
-                if self._ask("GET", "/status")["ready"]:
-                    return
-            except urllib.error.URLError:
-                time.sleep(0.05)
-        raise TimeoutError(f"{DRIVER} does not answer within 10 s")
+    def _ask(self, method: str, parameters: Any = None) -> Any:
+        """The answer to a command; what the browser says meanwhile is kept."""
+        self._asked += 1
+        asked = {"id": self._asked, "method": method, "params": parameters or {}}
+        if self._session is not None:
+            asked["sessionId"] = self._session
+        os.write(self._to, json.dumps(asked).encode() + b"\0")
+        while True:
+            said = self._hear(method)
+            if said.get("id") == self._asked:
+                assert "error" not in said, f"{method}: {said['error']}"
+                return said["result"]
+            self._events.append(said)
 
-    def _ask(self, method: str, path: str, body: Any = None) -> Any:
-        data = None if body is None else json.dumps(body).encode()
-        head = {"Content-Type": "application/json"}
-        url = f"http://127.0.0.1:{self._port}{path}"
-        request = urllib.request.Request(url, data, head, method=method)
-        # a proxy knows nothing of this machine
-        opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
-        with opener.open(request, timeout=60) as answer:
-            return json.load(answer)["value"]
+    def _hear(self, method: str) -> dict[str, Any]:
+        """What the browser says next."""
+        until = time.monotonic() + PATIENCE
+        while b"\0" not in self._rest:
+            ready, _, _ = select.select([self._from], [], [], max(until - time.monotonic(), 0.0))
+            more = os.read(self._from, 1 << 16) if ready else b""
+            if not more:
+                self._words.seek(0)
+                how = "ended" if ready else f"did not answer within {PATIENCE:g} s"
+                words = self._words.read().decode(errors="replace")[-2000:]
+                raise AssertionError(f"{_program()} {how} at {method}: {words}")
+            self._rest += more
+        line, _, self._rest = self._rest.partition(b"\0")
+        return json.loads(line)
 
-    def _tell(self, command: str, parameters: Any) -> Any:
-        body = {"cmd": command, "params": parameters}
-        return self._ask("POST", f"{self._session}/goog/cdp/execute", body)
+    def _until(self, method: str) -> None:
+        """Wait for an event."""
+        while all(of["method"] != method for of in self._events):
+            self._events.append(self._hear(method))
 
     def open(self, page: Path) -> None:
         """Open a page from a file, and wait until it is drawn."""
-        self._ask("POST", f"{self._session}/url", {"url": page.as_uri()})
+        self._events.clear()
+        self._ask("Page.navigate", {"url": page.as_uri()})
+        self._until("Page.loadEventFired")
         self.run("return new Promise(done => requestAnimationFrame(() => setTimeout(done, 100)))")
 
     def run(self, script: str) -> Any:
         """What a script in the page returns."""
-        return self._ask(
-            "POST", f"{self._session}/execute/sync", {"script": script, "args": []}
-        )
+        asked = {
+            "expression": f"(() => {{ {script} }})()",
+            "awaitPromise": True,
+            "returnByValue": True,
+        }
+        answer = self._ask("Runtime.evaluate", asked)
+        assert "exceptionDetails" not in answer, answer["exceptionDetails"]
+        return answer["result"].get("value")
 
-    def press(self, keys: str) -> None:
-        """Press keys one after the other, where the focus is."""
-        events = [
-            {"type": kind, "value": key} for key in keys for kind in ("keyDown", "keyUp")
-        ]
-        board = {"type": "key", "id": "board", "actions": events}
-        self._ask("POST", f"{self._session}/actions", {"actions": [board]})
+    def press(self, key: str) -> None:
+        """Press a key, where the focus is."""
+        of = KEYS[key]
+        self._ask("Input.dispatchKeyEvent", {"type": "keyDown", **of})
+        released = {name: value for name, value in of.items() if name != "text"}
+        self._ask("Input.dispatchKeyEvent", {"type": "keyUp", **released})
 
     def complaints(self) -> list[str]:
-        """What stands in the console."""
-        entries = self._ask("POST", f"{self._session}/se/log", {"type": "browser"})
-        return [f"{entry['level']}: {entry['message']}" for entry in entries]
+        """What stands in the console, and what went wrong in scripts."""
+        found = []
+        for event in self._events:
+            of = event["params"]
+            if event["method"] == "Log.entryAdded":
+                found.append(f"{of['entry']['level']}: {of['entry']['text']}")
+            elif event["method"] == "Runtime.consoleAPICalled":
+                found.append(f"{of['type']}: {of['args']}")
+            elif event["method"] == "Runtime.exceptionThrown":
+                found.append(str(of["exceptionDetails"]))
+        return found
 
     def requests(self) -> list[str]:
-        """Addresses that pages asked for; those of the browser's own pages and inline data apart."""
-        entries = self._ask("POST", f"{self._session}/se/log", {"type": "performance"})
-        events = [json.loads(entry["message"])["message"] for entry in entries]
-        sent = [of for of in events if of["method"] == "Network.requestWillBeSent"]
-        by_pages = [of["params"] for of in sent if not is_own(of["params"]["documentURL"])]
-        return [of["request"]["url"] for of in by_pages if not is_own(of["request"]["url"])]
+        """Addresses that the page asked for, but for those of the browser and data in the page."""
+        sent = [of for of in self._events if of["method"] == "Network.requestWillBeSent"]
+        urls = [of["params"]["request"]["url"] for of in sent]
+        return [url for url in urls if not is_own(url)]
 
     def close(self) -> None:
-        """Close the browser, then its driver."""
+        """End the browser."""
+        os.close(self._to)
+        os.close(self._from)
         try:
-            if self._session:
-                self._ask("DELETE", self._session)
-        finally:
-            self._driver.terminate()
-            self._driver.wait(timeout=20)
+            self._browser.wait(timeout=10)
+        except subprocess.TimeoutExpired:
+            self._browser.kill()
+            self._browser.wait(timeout=10)
+        self._words.close()
+
+
+#: Puts two descriptors to 3 and 4, then becomes the program.
+_AT_3_AND_4 = """
+import fcntl, os, sys
+ends = ({0}, {1})
+# copies lie above, so that none is overwritten, and the program gets 3 and 4 alone
+copies = [fcntl.fcntl(one, fcntl.F_DUPFD_CLOEXEC, 10) for one in ends]
+for one in ends:
+    os.close(one)
+for place, one in zip((3, 4), copies):
+    os.dup2(one, place)
+os.execv(sys.argv[1], sys.argv[1:])
+"""

@@ -66,6 +66,7 @@ def program() -> Callable[..., subprocess.CompletedProcess[str]]:
         words = [path, *map(str, arguments)]
         return subprocess.run(words, capture_output=True, text=True, check=False)
 
+    call.path = path
     return call
 
 

@@ -58,12 +58,14 @@ def test_pandas_takes_a_table(recording):
     assert recording.tracks.to_array("t", "v_left").shape == (len(frame), 2)
 
 
-@pytest.mark.parametrize("kind", ["dict", "frame", "structured", "array"])
+@pytest.mark.parametrize("kind", ["dict", "frame", "arrow", "batch", "structured", "array"])
 def test_a_recording_of_arrays_is_the_recording(recording, kind):
     one = recording.part(runs=1)
     convert = {
         "dict": dict,
         "frame": pd.DataFrame,
+        "arrow": pa.table,
+        "batch": lambda table: pa.RecordBatch.from_pydict(dict(table)),
         "structured": lambda table: table.to_structured(),
         "array": lambda table: table.to_array(*[name for name in table if name != "run"]),
     }[kind]

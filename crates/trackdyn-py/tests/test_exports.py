@@ -135,3 +135,27 @@ def test_exports_say_what_they_need(parameters, tmp_path, setting, words, keywor
 def test_a_table_needs_a_speed(robot):
     with pytest.raises(td.SettingError, match="fastest 0: expected a track speed"):
         td.motion_table(robot, fastest=0.0)
+
+
+def test_layers_of_a_diagnosis_have_claims_and_the_ideal_drive(diagnosis, tmp_path):
+    reader = pytest.importorskip("mcap.reader")
+    decoder = pytest.importorskip("mcap_ros2.decoder")
+    (path,) = [one for one in diagnosis.write_layers(tmp_path) if one.suffix == ".mcap"]
+
+    def messages(topic):
+        with path.open("rb") as file:
+            bag = reader.make_reader(file, True, [decoder.DecoderFactory()])
+            return [of.decoded_message for of in bag.iter_decoded_messages(topic)]
+
+    (said,) = {of.data for of in messages("/trackdyn/claims")}
+    lines = said.split("\n")
+    assert lines[0] == diagnosis.status
+    for claim in diagnosis.claims:
+        assert any(" or ".join(claim.one_of) in line for line in lines), said
+    # tracks that do not slip turn the robot further than it turned
+    turned = {}
+    for name in ("observed", "ideal"):
+        poses = [of.pose.orientation for of in messages(f"/trackdyn/{name}/pose")]
+        yaw = np.unwrap([2.0 * np.arctan2(of.z, of.w) for of in poses])
+        turned[name] = np.sum(np.abs(np.diff(yaw)))
+    assert turned["ideal"] > 1.2 * turned["observed"] > 0.0, turned

@@ -9,10 +9,11 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
-from fleets import Inline, rows, run
+from fleets import Inline, rows, run, status_of
 
 import trackdyn as td
 from trackdyn.fleet import _executors, _guard, _journal, _submit, _table
+from trackdyn.fleet.__main__ import main
 
 needs_posix = pytest.mark.skipif(sys.platform == "win32", reason="pipes and signals of POSIX")
 
@@ -37,7 +38,7 @@ def test_a_log_that_hangs_or_crashes_costs_its_row(robot, tmp_path, monkeypatch)
         "    return _read(path, **options)\n"
         "_child.read_recording = read\n"
     )
-    code = _guard._CODE.replace("_child.serve()", crash + "_child.serve()")
+    code = _guard._CODE.replace("_child.serve(", crash + "_child.serve(")
     monkeypatch.setattr(_guard, "_CODE", code)
     out = tmp_path / "out.parquet"
     outcome = td.fleet.run(tmp_path / "*", robot, out, diagnose=False, workers=1, timeout=5.0)
@@ -151,10 +152,6 @@ def test_an_executor_that_breaks_keeps_what_was_done(in_fleet, expected):
     outcome = run("lost.parquet", executor=Inline(lost))
     assert outcome.made == {"crashed": 7}
 
-    # nothing starts in 10 MB, whatever the log
-    with pytest.raises(td.Error, match="broke: NotStarted: its process ended"):
-        run("none.parquet", workers=1, memory=1e7)
-    assert not Path("none.parquet").exists()
 
     def old(result):
         return {**result, "row": {**result["row"], "version": "0.0.1"}}
@@ -163,6 +160,24 @@ def test_an_executor_that_breaks_keeps_what_was_done(in_fleet, expected):
         run("old.parquet", executor=Inline(old))
     with pytest.raises(td.SettingError, match="nuisances lever: expected"):
         run("old.parquet", executor=Inline(), identify={"nuisances": ["lever"]})
+
+
+@needs_posix
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="no /proc tells of memory")
+def test_memory_in_which_nothing_starts_is_refused(in_fleet, capsys):
+    for memory in (1e7, 5e7):
+        words = rf"memory {memory:.0f}: expected \d+ bytes"
+        with pytest.raises(td.SettingError, match=words) as it:
+            run("none.parquet", workers=1, memory=memory)
+        assert it.value.setting == "memory" and not Path("none.parquet").exists()
+    # in what is expected, the process starts, and what does not fit costs rows
+    needs = int(str(it.value).split("expected ")[1].split()[0])
+    outcome = run("some.parquet", workers=1, memory=needs + 2**20)
+    assert sum(outcome.made.values()) == 7
+    words = ["logs/*/*", "--vehicle", "auriga-alpha", "--no-diagnose", "--out", "none.parquet"]
+    assert status_of(main, [*words, "--workers", "1", "--memory", "0.05"]) == 1
+    said = capsys.readouterr().err
+    assert "--memory 50000000: expected " in said and " GB) or more" in said, said
 
 
 def test_a_journal_goes_on_behind_a_row_that_was_cut(tmp_path):

@@ -128,3 +128,43 @@ def test_bad_input_is_refused(trial, monkeypatch, capsys, words, message):
     status = status_of(main, words)
     said = capsys.readouterr().err
     assert status == 1 and message in said and "Traceback" not in said, said
+
+
+def test_the_program_hands_over_to_dask(trial, program, monkeypatch):
+    pytest.importorskip("distributed")
+    words = ["trial", "run", trial, "--program", trial.parent / "canned"]
+    done = program(*words, "--executor", "dask", "--workers", "2")
+    assert f"{CASES} of {CASES} cases are done" in done.stdout, done.stderr
+    assert "case-0005: " in done.stdout and len(calls(trial)) == CASES
+    # what is not there is told, with what to do
+    for options, said in [
+        (["--executor", "dask", "--shard", "1/2"], "--shard: workers of Dask take all cases"),
+        (["--workers", "2"], "--scheduler, --workers: expected with --executor dask"),
+        (["--executor", "slurm"], "invalid value 'slurm' for '--executor"),
+    ]:
+        done = program(*words, *options)
+        assert done.returncode == 1 and said in " ".join(done.stderr.split()), done.stderr
+
+
+def test_where_python_or_the_package_is_missing_it_is_told(trial, program, monkeypatch, tmp_path):
+    # a program that lies alone, as one that cargo built
+    import shutil
+    import subprocess
+
+    alone = tmp_path / "bin"
+    alone.mkdir()
+    path = shutil.copy2(program.path, alone / "trackdyn")
+    words = [path, "trial", "run", str(trial), "--executor", "dask"]
+    for script, said in [
+        (None, "python3 cannot be started"),
+        ("echo \"No module named 'distributed'\" >&2; exit 1", "No module named 'distributed'"),
+    ]:
+        if script is not None:
+            (alone / "python3").write_text(f"#!/bin/sh\n{script}\n")
+            (alone / "python3").chmod(0o755)
+        done = subprocess.run(
+            words, capture_output=True, text=True, check=False, env={"PATH": str(alone)}
+        )
+        told = " ".join(done.stderr.split())
+        assert done.returncode == 1 and said in told, told
+        assert "pip install trackdyn[fleet], or --executor local" in told, told

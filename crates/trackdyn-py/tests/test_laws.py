@@ -1,5 +1,6 @@
 """Laws of a user: effects beside the catalogue, as functions of Python."""
 
+import copy
 import math
 import pickle
 import subprocess
@@ -11,6 +12,7 @@ from types import SimpleNamespace
 import lawful
 import numpy as np
 import pytest
+from scipy import interpolate, special
 
 import trackdyn as td
 
@@ -85,7 +87,7 @@ def test_what_depends_on_parameters_is_traced_for_each(robot):
 
     @td.law("my-looked-at-gear", parameters={"strength": td.Parameter("N s/m", 20.0)})
     def looked_at(at, strength):
-        return my_gear(SimpleNamespace(v_forward=np.asarray(at.v_forward)), strength)
+        return my_gear(SimpleNamespace(v_forward=np.fromiter(at.v_forward, float)), strength)
 
     assert my_gear.is_compiled and not looked_at.is_compiled
     for strength in (20.0, 30.0, 40.0):
@@ -97,13 +99,143 @@ def test_what_depends_on_parameters_is_traced_for_each(robot):
     "function",
     [
         lambda at, strength: (np.sort(at.v_forward), 0.0),
-        lambda at, strength: (np.array([0.0 * v for v in at.v_forward]), 0.0),
+        lambda at, strength: (np.fromiter((0.0 * v for v in at.v_forward), float), 0.0),
         lambda at, strength: (at.v_forward - np.mean(at.v_forward), 0.0),
+        # what depends on the company of a state is found out
+        lambda at, strength: (at.v_forward - sum(at.v_forward), 0.0),
+        lambda at, strength: (at.v_forward / len(at.v_forward), 0.0),
+        lambda at, strength: (at.v_forward - at.v_forward[0], 0.0),
+        lambda at, strength: (at.v_forward * (2.0 if np.any(at.v_forward > 1.0) else 1.0), 0.0),
         lambda at, strength: (np.random.default_rng().random(len(at.time)), 0.0),
     ],
 )
 def test_what_cannot_be_traced_is_called(function):
     assert not td.law("my-call", parameters=SIZE)(function).is_compiled
+
+
+PLACES = np.linspace(-3.0, 3.0, 9)
+CUBIC = interpolate.CubicSpline(PLACES, np.sin(PLACES))
+PCHIP = interpolate.PchipInterpolator(PLACES, np.sin(PLACES))
+UNIVARIATE = interpolate.InterpolatedUnivariateSpline(PLACES, np.sin(PLACES))
+BSPLINE = interpolate.make_interp_spline(PLACES, np.sin(PLACES))
+TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
+
+
+@np.vectorize
+def by_number(v, factor):
+    """A function of numbers."""
+    if v > 0.3:
+        return v * factor
+    return max(math.sin(v), -0.2)
+
+
+def by_masks(at, s):
+    force = s * at.v_forward
+    is_fast = np.abs(at.yaw_rate) > 0.5
+    force[is_fast] *= 2.0
+    force[~is_fast] = force[~is_fast] + at.yaw_rate[~is_fast]
+    force[at.x > 1.0] = 0.0
+    return force, force.copy()
+
+
+def by_elements(at, s):
+    found = np.zeros(len(at.x))
+    for k in range(len(at.x)):
+        v = at.v_forward[k]
+        if v > 1.0:
+            found[k] = s * v
+        elif v < -1.0:
+            found[k] = -1.0
+        else:
+            found[k] = math.sqrt(abs(v))
+    return found, np.array([v if abs(v) < 1.0 else 0.0 for v in at.yaw_rate])
+
+
+def by_any(at, s):
+    """Questions of all states that change nothing for the others."""
+    rate = at.yaw_rate
+    if np.any(np.abs(rate) > 1.0):
+        rate = np.where(np.abs(rate) > 1.0, np.sign(rate), rate)
+    if (rate > 1e6).any():
+        rate = 2.0 * rate
+    return s * rate, 0.0
+
+
+TRACEABLE = {
+    "array": lambda at, s: np.array([at.v_forward, -at.v_lateral]) * s,
+    "moment": lambda at, s: np.array([at.v_forward, -at.v_lateral, 0.0 * at.x]),
+    "stack": lambda at, s: np.stack([at.x, at.y]) * np.array([[1.0], [2.0]]),
+    "norm": lambda at, s: (
+        np.linalg.norm([at.v_forward, at.v_lateral], axis=0),
+        np.linalg.norm(np.column_stack([at.x, at.y]), axis=1),
+    ),
+    "product": lambda at, s: TURN @ np.array([at.v_forward, at.v_lateral]),
+    "dot": lambda at, s: (
+        np.dot([1.0, 2.0], np.vstack([at.x, at.y])),
+        np.array([at.x, at.y]).T @ np.array([3.0, 4.0]),
+    ),
+    "piecewise": lambda at, s: (
+        np.piecewise(at.x, [at.x < 0.0, at.x >= 1.0], [lambda v: -v, 3.0, lambda v: v**2]),
+        0.0,
+    ),
+    "round": lambda at, s: (np.round(at.x, 2) + at.x.round(), np.around(at.y, -1)),
+    "finite": lambda at, s: (np.where(np.isfinite(at.x), at.x, 0.0), np.nan_to_num(at.x / at.time)),
+    "clip": lambda at, s: (at.x.clip(-1.0, 1.0), np.clip(at.y, None, s)),
+    "special": lambda at, s: (
+        special.erf(at.x) + special.expit(at.y),
+        special.xlogy(abs(at.x), abs(at.y) + 1.0) + special.j0(at.time),
+    ),
+    "math": lambda at, s: (at.x * math.sqrt(s), math.erf(s) * at.x),
+    "splines": lambda at, s: (
+        CUBIC(at.x) + PCHIP(at.y),
+        UNIVARIATE(at.x) + BSPLINE(at.time),
+    ),
+    "numbers": lambda at, s: (by_number(at.x, s), 0.0),
+    "several": lambda at, s: (
+        np.maximum.reduce([at.x, at.y, 0.0 * at.x]),
+        sum([at.x, at.y]) + np.mean(np.array([at.x, at.y]), axis=0),
+    ),
+    "if": lambda at, s: (2.0 * at.x if s > 3.0 else at.x * math.log(s), 0.0),
+    "masks": by_masks,
+    "elements": by_elements,
+    "any": by_any,
+}
+
+
+@pytest.mark.parametrize("name", TRACEABLE)
+@pytest.mark.filterwarnings("ignore:divide by zero", "ignore:invalid value")
+def test_what_is_written_with_arrays_is_compiled(name):
+    """Compiled laws were compared with their function at many states."""
+    size = {"s": td.Parameter("N", 2.0, low=0.1, high=9.0)}
+    assert td.law("my-traced", parameters=size)(TRACEABLE[name]).is_compiled
+
+
+def test_calls_are_shared_by_runs_and_by_points_of_a_map(robot):
+    calls = []
+
+    @td.law("my-counted", parameters={"strength": td.Parameter("N s/m", 20.0)})
+    def counted(at, strength):
+        calls.append(len(at.v_forward))
+        return -strength * np.fromiter(at.v_forward, float), 0.0
+
+    own = robot.with_effect(counted)
+    numbers = []
+    for runs in (1, 8):
+        calls.clear()
+        many = td.simulate(own, "designed", runs=runs, duration=6.0)
+        numbers.append(len(calls))
+    assert numbers[1] < 3 * numbers[0], numbers
+    # and each run is what it would be alone
+    one = td.simulate(own, "designed", runs=1, duration=6.0)
+    assert np.array_equal(many.truth["x"][many.truth["run"] == 0], one.truth["x"])
+    calls.clear()
+    found = td.icr_map(own, points=21)
+    assert len(calls) < 441
+    twin = td.law("my-twin", parameters={"strength": td.Parameter("N s/m", 20.0)})(
+        lambda at, strength: (-strength * at.v_forward, 0.0)
+    )
+    other = td.icr_map(robot.with_effect(twin), points=21)
+    assert np.allclose(found.x_r, other.x_r, rtol=0.0, atol=1e-7, equal_nan=True)
 
 
 def test_exceptions_come_out_as_they_are(robot):
@@ -188,12 +320,106 @@ def test_a_pickle_brings_the_module_of_its_law(robot, tmp_path):
     done = subprocess.run(words, capture_output=True, text=True, check=False, cwd=here)
     assert done.stdout.strip() == "['my-snow:drag=150']", done.stderr
 
+
+def local_law(width):
+    """A law that no other process can import."""
+
     @td.law("my-local", parameters=SIZE)
     def my_local(at, strength):
-        return -strength * np.tanh(at.v_forward), 0.0
+        return -strength * np.tanh(at.v_forward / width), 0.0
 
-    with pytest.raises((pickle.PicklingError, AttributeError), match="my_local"):
-        pickle.dumps(robot.with_effect(my_local))
+    return my_local
+
+
+#: Reads a pickle of a law or a vehicle and drives with it; prints the last place.
+DRIVES = """
+import pickle, sys, trackdyn as td
+law = pickle.load(open(sys.argv[1], "rb"))
+robot = td.Vehicle("auriga-alpha").with_effect(law)
+truth = td.simulate(robot, "designed", runs=1, duration=6.0, inertia=False).truth
+print(repr(float(truth["x"][-1])), law.id, pickle.loads(pickle.dumps(law)) is law)
+"""
+
+
+def elsewhere(code, law, folder):
+    """What a process prints that has none of these modules and reads a pickle of a law."""
+    (folder / "law.pickle").write_bytes(pickle.dumps(law))
+    words = [sys.executable, "-c", code, str(folder / "law.pickle")]
+    done = subprocess.run(words, capture_output=True, text=True, check=False, cwd=folder)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.split()
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        local_law(0.2),
+        td.law("my-lambda", parameters=SIZE)(lambda at, strength: (-strength * at.v_forward, 0.0)),
+        lawful.my_snow,
+    ],
+)
+def test_a_law_goes_to_a_process_that_cannot_import_it(robot, law, tmp_path):
+    pytest.importorskip("cloudpickle")
+    x, id, is_same = elsewhere(DRIVES, law, tmp_path)
+    assert float(x) == driven(robot, law)["x"][-1] and id == law.id and is_same == "True"
+    assert pickle.loads(pickle.dumps(law)) is law is copy.deepcopy(law)
+
+
+def test_a_law_that_was_defined_again_is_sent_again():
+    pytest.importorskip("cloudpickle")
+    third, first, second = local_law(0.3), local_law(0.2), local_law(0.3)
+    assert first.fingerprint != second.fingerprint == third.fingerprint
+    old = pickle.dumps(first)
+    assert pickle.loads(pickle.dumps(second)) is second
+    again = pickle.loads(old)
+    assert again.fingerprint == first.fingerprint and again is not second
+
+
+def test_without_cloudpickle_it_is_said_what_to_do(robot, monkeypatch):
+    monkeypatch.setitem(sys.modules, "cloudpickle", None)
+    law = local_law(0.2)
+    for one in (law, robot.with_effect(law)):
+        with pytest.raises(pickle.PicklingError, match="pip install cloudpickle, or define"):
+            pickle.dumps(one)
+    assert pickle.loads(pickle.dumps(lawful.my_snow)) is lawful.my_snow
+
+
+def test_what_cannot_be_sent_is_told(robot):
+    pytest.importorskip("cloudpickle")
+    lock = threading.Lock()
+
+    @td.law("my-lock", parameters=SIZE)
+    def my_lock(at, strength):
+        with lock:
+            return -strength * np.tanh(at.v_forward), 0.0
+
+    with pytest.raises(pickle.PicklingError, match="'my-lock': its function cannot be sent"):
+        pickle.dumps(robot.with_effect(my_lock))
+
+
+def test_workers_of_dask_get_laws_of_modules_that_they_do_not_have(robot, tmp_path, monkeypatch):
+    distributed = pytest.importorskip("distributed")
+    (tmp_path / "own_helpers.py").write_text("def half(x):\n    return 0.5 * x\n")
+    (tmp_path / "own_laws.py").write_text(
+        "import own_helpers, trackdyn as td\n"
+        "@td.law('own-drag', parameters={'strength': td.Parameter('N s/m', 30.0)})\n"
+        "def own_drag(at, strength):\n"
+        "    return -strength * own_helpers.half(at.v_forward), 0.0\n"
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    import own_laws
+
+    monkeypatch.undo()
+    laws = [own_laws.own_drag, local_law(0.2)]
+    robots = [robot.with_effect(law) for law in laws]
+    with (
+        distributed.LocalCluster(1, threads_per_worker=1, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        found = client.map(td.simulate, robots, runs=1, duration=4.0)
+        for one, of in zip(client.gather(found, direct=False), robots):
+            expected = td.simulate(of, runs=1, duration=4.0).recording
+            assert one.recording.fingerprint == expected.fingerprint
 
 
 @pytest.fixture(scope="module")

@@ -87,3 +87,98 @@ def test_other_processes_work(recording, method):
     expected = _fit(recording)
     with multiprocessing.get_context(method).Pool(2) as pool:
         assert pool.map_async(_fit, [recording] * 3).get(timeout=120) == [expected] * 3
+
+
+def shown(result):
+    """What a result shows: properties, what it is as a dict, and how it is printed."""
+    names = [name for name in dir(result) if not name.startswith("_")]
+    values = {name: getattr(result, name) for name in names if not hasattr(type(result), name)}
+    for name in names:
+        of = getattr(type(result), name, None)
+        if isinstance(of, property) or hasattr(of, "__set__"):
+            values[name] = getattr(result, name)
+    if hasattr(result, "to_dict"):
+        values["to_dict"] = result.to_dict()
+    return {**values, "repr": repr(result), "html": getattr(result, "_repr_html_", str)()}
+
+
+def assert_alike(one, other, place=""):
+    assert type(one) is type(other), place
+    if isinstance(one, td.Recording):
+        assert_same(one, other)
+    elif isinstance(one, td.Figure):
+        assert one.to_svg() == other.to_svg() and one.to_png() == other.to_png(), place
+        assert_alike(one.data, other.data, f"{place}.data")
+    elif isinstance(one, np.ndarray):
+        assert np.array_equal(one, other, equal_nan=one.dtype.kind == "f"), place
+    elif isinstance(one, dict):
+        assert list(one) == list(other), place
+        for key in one:
+            assert_alike(one[key], other[key], f"{place}.{key}")
+    elif isinstance(one, (list, tuple)):
+        assert len(one) == len(other), place
+        for number, pair in enumerate(zip(one, other)):
+            assert_alike(*pair, f"{place}[{number}]")
+    else:
+        assert one == other or one != one, place
+
+
+@pytest.fixture(scope="module")
+def results(robot, drive, recording, diagnosis, tmp_path_factory):
+    """A result of each kind, with how it writes its files where it does."""
+    parameters = td.IcrKinematics(robot).fit(recording).parameters_
+    folder = tmp_path_factory.mktemp("inspected")
+    drive.write(folder / "drive")
+    icr_map = td.icr_map(robot, points=7, max_speed=0.8)
+    open_questions = diagnosis.to_toml()
+    (folder / "diagnosis.toml").write_text(open_questions)
+    return {
+        "Simulation": drive,
+        "IcrMap": icr_map,
+        "Odometry": td.odometry(recording, robot, [parameters], time=(0.0, 20.0)),
+        "Odometry of a gauge": td.odometry(recording, 0.42),
+        "MotionTable": td.motion_table(robot, fastest=0.8),
+        "Plan": td.plan(diagnosis, duration=20.0),
+        "Inspection": td.inspect(folder / "drive", vehicle=robot),
+        "Figure": icr_map.figure,
+    }
+
+
+KINDS = ["Simulation", "IcrMap", "Odometry", "Odometry of a gauge", "MotionTable", "Plan"]
+
+
+@pytest.mark.parametrize("kind", [*KINDS, "Inspection", "Figure"])
+@pytest.mark.parametrize("copy_of", [copied, copy.deepcopy, copy.copy])
+def test_results_show_the_same_in_another_process(results, kind, copy_of):
+    result = results[kind]
+    same = copy_of(result)
+    assert_alike(shown(result), shown(same), kind)
+    # a copy of a copy is one, too
+    assert_alike(shown(result), shown(copy_of(same)), kind)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_results_write_the_same_files_in_another_process(results, kind, tmp_path):
+    both = results[kind], copied(results[kind])
+    files = [one.write(tmp_path / str(k)) for k, one in enumerate(both)]
+    assert [path.name for path in files[0]] == [path.name for path in files[1]]
+    for one, other in zip(*files):
+        assert one.read_bytes() == other.read_bytes(), one
+
+
+def test_what_is_in_a_pickle_can_be_read_without_computing(results, monkeypatch):
+    from trackdyn import _result
+
+    same = {kind: pickle.dumps(results[kind]) for kind in KINDS}
+    monkeypatch.setattr(_result.Result, "_inner", property(lambda self: pytest.fail("computed")))
+    simulation, icr_map, odometry, _, table, plan = (pickle.loads(same[kind]) for kind in KINDS)
+    assert simulation.truth.rows and simulation.recording.runs and simulation.to_dict()
+    assert icr_map.statistics and icr_map.parameters and icr_map.x_l.shape == (7, 7)
+    assert odometry.to_dict() and odometry.paths and odometry.errors_at_end.any()
+    assert table.files and table.error < 1.0
+    assert plan.to_dict() and repr(plan)
+    assert not simulation.truth["x"].flags.writeable
+
+
+def test_a_copy_of_a_diagnosis_still_has_its_figures(diagnosis):
+    assert copy.deepcopy(diagnosis).report() == diagnosis.report()

@@ -149,3 +149,77 @@ def test_errors_have_the_words_of_the_program(program, tmp_path, monkeypatch, ca
         said = said.removeprefix(raised.value.setting).lstrip()
     said = said.removeprefix("duration = ")
     assert said in _words(program(*arguments, "--out", "out")), said
+
+
+@pytest.mark.parametrize(
+    ("words", "setting", "call"),
+    [
+        *(
+            (f"identify DRIVE --gauge 0.4 --{name} {value}", name, ("fit", {name: value}))
+            for name, value in [
+                ("population", 2),
+                ("population", 3),
+                ("population", 200000),
+                ("generations", 0),
+                ("generations", 200000),
+                ("settle", -1),
+                ("settle", "nan"),
+            ]
+        ),
+        ("identify DRIVE --gauge -1", "gauge", ("gauge", -1.0)),
+        ("identify DRIVE --gauge 1000", "gauge", ("gauge", 1000.0)),
+        ("diagnose DRIVE --vehicle auriga-alpha --draws 3", "draws", ("diagnose", {"draws": 3})),
+        ("map --grid 1", "points", ("map", {"points": 1})),
+        ("map --grid 3000", "points", ("map", {"points": 3000})),
+        ("map --fastest 0", "max_speed", ("map", {"max_speed": 0})),
+        ("map --fastest nan", "max_speed", ("map", {"max_speed": np.nan})),
+        ("plan --diagnosis none.toml --fastest 100", "fastest", ("plan", {"fastest": 100})),
+        # of driving, the crate of schedules says it, which knows no settings
+        ("simulate --fastest -1", None, ("simulate", {"fastest": -1})),
+        ("simulate --run-count 0", None, ("simulate", {"runs": 0})),
+    ],
+    ids=lambda of: of if isinstance(of, str) and "-" in of else "",
+)
+def test_bad_input_is_refused_in_the_same_words(
+    program, folder, diagnosis, words, setting, call, tmp_path
+):
+    what, value = call
+    keywords = value if isinstance(value, dict) else {}
+    keywords = {key: np.nan if one == "nan" else one for key, one in keywords.items()}
+    read = td.read_recording(folder)
+    calls = {
+        "fit": lambda: td.IcrKinematics(0.4, **keywords).fit(read),
+        "gauge": lambda: td.IcrKinematics(value).fit(read),
+        "diagnose": lambda: td.diagnose(read, "auriga-alpha", **keywords),
+        "map": lambda: td.icr_map("auriga-alpha", **keywords),
+        "plan": lambda: td.plan(diagnosis, **keywords),
+        "simulate": lambda: td.simulate("auriga-alpha", **keywords),
+    }
+    with pytest.raises(td.InputError) as raised:
+        calls[what]()
+    given = [str(folder) if word == "DRIVE" else word for word in words.split()]
+    done = program(*given, "--out", tmp_path / "out")
+    assert done.returncode in (1, 2), done.stderr
+    expected = str(raised.value).split("expected ", 1)[1]
+    assert f"expected {expected}" in " ".join(done.stderr.split()), (str(raised.value), done.stderr)
+    assert raised.value.setting == setting and str(raised.value).startswith(setting or "")
+
+
+def test_a_generation_is_enough(program, folder, tmp_path):
+    assert td.IcrKinematics(0.42, generations=1, population=4).fit(td.read_recording(folder)).x_r_
+    few = ["--generations", 1, "--population", 4, "--out", tmp_path]
+    assert program("identify", folder, "--gauge", 0.42, *few).returncode == 0
+
+
+def test_a_plan_of_what_is_no_diagnosis_says_so(program, diagnosis, tmp_path):
+    other = tmp_path / "other.toml"
+    other.write_text("a = 1\n")
+    with pytest.raises(td.DocumentError, match="other.toml:1") as raised:
+        td.plan(other)
+    assert "vehicle.corrected.toml" not in str(raised.value)
+    assert str(raised.value).splitlines()[0] in program("plan", "--diagnosis", other).stderr
+    # a diagnosis without its vehicle
+    alone = tmp_path / "diagnosis.toml"
+    alone.write_text(diagnosis.to_toml())
+    with pytest.raises(td.InputError, match="expected beside the diagnosis, or vehicle"):
+        td.plan(alone)

@@ -12,7 +12,7 @@ from browser import Browser, missing
 import trackdyn as td
 
 LARGEST = 1_000_000
-ENTER, RIGHT = "\ue007", "\ue014"
+ENTER, RIGHT = "Enter", "ArrowRight"
 
 
 @pytest.fixture(scope="module")
@@ -88,7 +88,7 @@ def test_a_page_is_labelled(pages, name):
 def browser(request, tmp_path):
     lacking = missing()
     if lacking:
-        pytest.skip(f"{lacking} not installed: the page was not opened")
+        pytest.skip(f"the page was not opened: {lacking}")
     opened = Browser(tmp_path / "profile", *request.param)
     yield opened
     opened.close()
@@ -142,3 +142,15 @@ def test_without_scripts_and_on_paper_all_figures_are_there(pages):
     assert "hidden" in closer, "what needs a script is shown by it"
     drawn = [of["aria-label"] for of in page.all("svg") if "aria-label" in of]
     assert {"When observation and model differ", "One run replayed"} <= set(drawn)
+
+
+def test_the_browser_hears_what_goes_wrong(browser, tmp_path):
+    page = tmp_path / "wrong.html"
+    page.write_text(
+        "<!doctype html><title>wrong</title><img src='http://127.0.0.1:9/none.png'>"
+        "<script>console.warn('beware'); nothing.at.all;</script>"
+    )
+    browser.open(page)
+    said = "\n".join(browser.complaints())
+    assert "beware" in said and "nothing is not defined" in said, said
+    assert browser.requests() == [page.as_uri(), "http://127.0.0.1:9/none.png"]

@@ -1,6 +1,6 @@
 //! Colours.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Red, green, blue.
 pub type Rgb = [u8; 3];
@@ -26,7 +26,8 @@ pub(crate) fn hex([r, g, b]: Rgb) -> String {
 }
 
 /// A map from 0..1 to colours, readable with any kind of colour vision.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(try_from = "Anchors")]
 pub struct ColourMap {
     /// Colours at equal distances, from 0 to 1.
     anchors: &'static [Rgb],
@@ -95,6 +96,22 @@ pub const BLUE_RED: ColourMap = ColourMap {
         [103, 0, 31],
     ],
 };
+
+/// A map of colours as it is read.
+#[derive(Deserialize)]
+struct Anchors {
+    anchors: Vec<Rgb>,
+}
+
+impl TryFrom<Anchors> for ColourMap {
+    type Error = &'static str;
+
+    fn try_from(read: Anchors) -> Result<Self, Self::Error> {
+        let known = [VIRIDIS, DARK_PLASMA, BLUES, BLUE_RED];
+        let found = known.into_iter().find(|map| map.anchors == read.anchors);
+        found.ok_or("colours of no map: expected those of viridis, plasma, blues or blue-red")
+    }
+}
 
 impl ColourMap {
     /// Colours at equal distances, from 0 to 1.

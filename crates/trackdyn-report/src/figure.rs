@@ -8,7 +8,7 @@ mod scale;
 mod series;
 
 use crate::text::{Style, Text};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 pub use axis::{Axis, Ticks};
 pub use legend::{Entry, Legend, Swatch};
@@ -21,7 +21,7 @@ pub use series::{
 };
 
 /// A rectangle on the sheet, pixels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 pub struct Area {
     /// Leftmost column.
     pub left: i32,
@@ -65,8 +65,9 @@ impl Area {
 /// A figure: panels with axes and series, texts and legends, on a sheet of pixels.
 ///
 /// Panels hold what is shown in its own units. Places on the sheet are pixels from the upper left
-/// corner; sheets are drawn at twice the size at which they are usually read.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// corner; sheets are drawn at twice the size at which they are usually read. A figure that was
+/// written with serde is read as the one that it was.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Figure {
     /// Name of its file, without the ending.
     pub name: String,

@@ -6,7 +6,7 @@
 
 use crate::colour::{INK, Rgb};
 use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont, point};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
 /// Size of numbers at ticks, pixels.
@@ -23,7 +23,7 @@ static FONT: LazyLock<FontRef<'static>> = LazyLock::new(|| {
 });
 
 /// Where the given point lies along the text.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Horizontal {
     /// At its beginning.
@@ -35,7 +35,7 @@ pub enum Horizontal {
 }
 
 /// Where the given point lies across the text.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Vertical {
     /// At the top of capitals.
@@ -49,7 +49,7 @@ pub enum Vertical {
 }
 
 /// How text looks.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Style {
     /// Size of the em, pixels.
     pub size: f32,
@@ -93,7 +93,7 @@ impl Style {
 }
 
 /// A line of text on the sheet.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Text {
     /// What is written.
     pub text: String,

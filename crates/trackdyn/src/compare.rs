@@ -12,6 +12,7 @@ use trackdyn_diagnose::compare::document::ComparisonFile;
 use trackdyn_diagnose::compare::{Comparison as Found, STAGES, Status, compare as compared};
 use trackdyn_diagnose::progress::Watch;
 use trackdyn_diagnose::{Evidence, Resampling};
+use trackdyn_estimate::Contradiction;
 use trackdyn_model::EffectId;
 use trackdyn_report::{Compared, comparison_figures, comparison_html};
 
@@ -83,7 +84,7 @@ impl Prepared {
         };
         let of_sim = match settings.held_out {
             HeldOut::None => HeldOut::None,
-            HeldOut::EveryFourth | HeldOut::Runs(_) => HeldOut::EveryFourth,
+            HeldOut::ByRule | HeldOut::Runs(_) => HeldOut::ByRule,
         };
         let sets = [
             Set::of_any(sim, vehicle, &of_set(of_sim))?,
@@ -92,9 +93,21 @@ impl Prepared {
         Ok(Self { sets, vehicle: vehicle.clone(), resampling: settings.resampling })
     }
 
+    /// Names of both sets: the simulator's and the robot's.
+    pub fn names(&self) -> [&str; 2] {
+        self.sets.each_ref().map(Set::name)
+    }
+
     /// What was seen of the simulator and of the robot.
     pub fn evidence(&self) -> [&Evidence; 2] {
         self.sets.each_ref().map(Set::evidence)
+    }
+
+    /// What contradicts the recordings of the simulator and of the robot, as
+    /// [`Recording::contradictions`] finds it; poses of a simulator may be those of its tracks, so
+    /// of these nothing is asked.
+    pub fn contradictions(&self) -> [&[Contradiction]; 2] {
+        self.sets.each_ref().map(Set::contradictions)
     }
 
     /// Compares, observed: a part is a stage of the method.
@@ -145,7 +158,7 @@ impl Comparison {
 
     /// Names of both sets: the simulator's and the robot's.
     pub fn names(&self) -> [&str; 2] {
-        self.of.sets.each_ref().map(Set::name)
+        self.of.names()
     }
 
     /// The comparison as a file (schema `trackdyn.comparison/1`).

@@ -14,7 +14,8 @@ use crate::law::guarded;
 use crate::recording::joined;
 use crate::viewer::{self, Layers};
 use crate::{
-    Change, Error, MethodSettings, Observer, Progress, Provenance, Recording, Vehicle, unobserved,
+    Change, Error, Limits, MethodSettings, Observer, Progress, Provenance, Recording, Vehicle,
+    unobserved,
 };
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -53,6 +54,9 @@ pub struct DiagnoseSettings {
 }
 
 impl DiagnoseSettings {
+    /// Limits of the number of draws of the bootstrap.
+    pub const DRAWS_LIMITS: Limits = Limits { least: 1000.0, most: 1e5, unit: "" };
+
     /// How poses are found that are no reference, of a vehicle with this gauge, m.
     fn of_reference(&self, gauge: f64) -> identification::Options {
         let method = &self.method;
@@ -291,10 +295,8 @@ impl Diagnosis {
 
     /// The diagnosis as a file (schema `trackdyn.diagnosis/1`).
     pub fn file(&self, provenance: &Provenance) -> DiagnosisFile {
-        let seed = Some(self.of.options.resampling.seed);
-        let source = Source { seed, ..self.of.source(provenance) };
         let gyroscope = self.of.evidence.gyroscope().map(|found| GyroscopeTable::of(found).into());
-        DiagnosisFile::new(&self.found, &source).with_gyroscope(gyroscope)
+        DiagnosisFile::new(&self.found, &self.of.seen(provenance)).with_gyroscope(gyroscope)
     }
 
     /// The text of `vehicle.corrected.toml`: the corrected vehicle, and in its first line where it

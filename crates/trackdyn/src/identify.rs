@@ -14,7 +14,9 @@ pub use turning::TurningFit;
 
 use crate::change::Folder;
 use crate::progress::Counter;
-use crate::{Change, Error, Gauge, Observer, Parameters, Provenance, Recording, unobserved};
+use crate::{
+    Change, Error, Gauge, Limits, Observer, Parameters, Provenance, Recording, unobserved,
+};
 use sourced::Sourced;
 use std::path::Path;
 use trackdyn_estimate::genetic::GeneticOptions;
@@ -50,6 +52,13 @@ pub struct IdentifySettings {
 }
 
 impl IdentifySettings {
+    /// Limits of the number of individuals of the genetic algorithm.
+    pub const POPULATION_LIMITS: Limits = Limits { least: 4.0, most: 1e5, unit: "" };
+    /// Limits of the number of its generations.
+    pub const GENERATIONS_LIMITS: Limits = Limits { least: 1.0, most: 1e5, unit: "" };
+    /// Limits of the time for which the tracks ran steadily.
+    pub const SETTLE_LIMITS: Limits = Limits { least: 0.0, most: 3600.0, unit: "s" };
+
     /// Names of the settings that count for recordings of motion only, where they are set.
     fn of_motion(&self) -> Vec<&'static str> {
         let given = [

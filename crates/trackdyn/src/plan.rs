@@ -84,9 +84,7 @@ impl PlanSettings {
             ("noise_yaw", self.noise_yaw, Self::NOISE_LIMITS),
         ];
         for (setting, value, limits) in given {
-            if let Some(value) = value.filter(|value| !limits.hold(*value)) {
-                return Err(Error::OutOfLimits { setting, value, limits });
-            }
+            value.map_or(Ok(0.0), |value| limits.check(setting, value))?;
         }
         Ok(())
     }

@@ -13,12 +13,12 @@ use crate::change::Folder;
 use crate::law::guarded;
 use crate::progress::Counter;
 use crate::{Change, Error, Observer, Provenance, Recording, Vehicle, unobserved};
-use rayon::prelude::*;
 use std::path::Path;
 use trackdyn_core::{PerSide, Pose, Trajectory};
 use trackdyn_drive::schedules::{self, ScheduleOptions, ScheduledRun, as_commanded};
 use trackdyn_drive::sensors::{PoseFrame as SensorFrame, Preset, Sensors, Views};
 use trackdyn_drive::{Error as DrivingError, truth};
+use trackdyn_model::custom::together;
 use trackdyn_model::{Circumstance, Stationary, Transient};
 use trackdyn_recording::{PoseFrame, Recording as Recorded, Source, UncheckedRun, folder};
 
@@ -127,7 +127,8 @@ impl Prepared {
             let driven = guarded(|| Driven::new(ground, run, origin, &self.settings));
             counter.advance("runs", 1).is_continue().then_some(driven).ok_or(Error::Cancelled)?
         };
-        let runs: Vec<Result<Driven, Error>> = self.schedules.par_iter().map(one).collect();
+        let share_calls = self.vehicle.effects().share_calls();
+        let runs = together(&self.schedules, share_calls, one);
         // of several errors that of the first run, on any number of threads
         let runs: Vec<Driven> = runs.into_iter().collect::<Result<_, _>>()?;
         let robot = self.vehicle.name();

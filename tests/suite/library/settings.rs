@@ -20,8 +20,8 @@ fn every_fourth_of_many_runs_is_held_out() {
     assert!(every_fourth(7).is_empty());
     assert_eq!(every_fourth(12), [3, 7, 11]);
     let [few, many] = [7, 8].map(|runs| driven(runs).recording);
-    assert!(held_out(&few, HeldOut::EveryFourth).expect("evidence").is_empty());
-    assert_eq!(held_out(&many, HeldOut::EveryFourth).expect("evidence"), [3, 7]);
+    assert!(held_out(&few, HeldOut::ByRule).expect("evidence").is_empty());
+    assert_eq!(held_out(&many, HeldOut::ByRule).expect("evidence"), [3, 7]);
     assert!(held_out(&many, HeldOut::None).expect("evidence").is_empty());
     let runs = |list: &str| HeldOut::Runs(list.parse().expect("a list"));
     assert_eq!(held_out(&many, runs("1,6")).expect("evidence"), [1, 6]);

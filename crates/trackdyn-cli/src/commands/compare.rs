@@ -10,6 +10,7 @@ use crate::gyroscope::say_gyroscopes;
 use crate::options::{MethodOptions, PartOptions, RecordingOptions, held_out, refuse_for_points};
 use crate::progress::Progress;
 use crate::provenance::provenance;
+use crate::stderr::warn;
 use crate::stdout::show;
 use clap::Args;
 use std::path::PathBuf;
@@ -65,6 +66,11 @@ pub fn run(options: &Options) -> Outcome {
         laws: Vec::new(),
     };
     let prepared = Prepared::new(&sim, &real, &vehicle, &settings)?;
+    for (name, found) in prepared.names().into_iter().zip(prepared.contradictions()) {
+        for contradiction in found {
+            warn(format_args!("{name}: {contradiction}"));
+        }
+    }
     say_gyroscopes(prepared.evidence().into_iter().filter_map(Evidence::gyroscope));
     prepare_folder(&options.out)?;
     let comparison = Progress::over(|observer| prepared.run(observer))?;

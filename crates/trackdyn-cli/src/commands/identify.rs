@@ -9,7 +9,7 @@ use crate::changes::{say_undetermined, say_written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::folder::prepare_folder;
-use crate::options::{DrivingOptions, GaugeOptions, not_negative, refuse_for_points, small};
+use crate::options::{DrivingOptions, GaugeOptions, count_within, refuse_for_points, within};
 use crate::progress::Progress;
 use crate::provenance::provenance;
 use crate::stderr::note;
@@ -29,7 +29,7 @@ const GENETIC: &str = "Genetic algorithm";
 #[command(group(ArgGroup::new("known").required(true).args(["vehicle", "gauge"])))]
 pub struct Options {
     /// Use only segments before which the tracks ran steadily for this many seconds
-    #[arg(long, value_name = "SECONDS", value_parser = not_negative)]
+    #[arg(long, value_name = "SECONDS", value_parser = settle)]
     settle: Option<f64>,
     /// Fit these beside the ICRs, where the recording shows them: time-offset, sensor-yaw
     /// (lever-arm only says why no recording shows it)
@@ -40,14 +40,12 @@ pub struct Options {
     gyroscope: bool,
     /// Individuals of the genetic algorithm
     #[arg(long, help_heading = GENETIC, value_name = "N",
-          default_value_t = small(GeneticOptions::default().population),
-          value_parser = clap::value_parser!(u32).range(4..=100_000))]
-    population: u32,
+          default_value_t = GeneticOptions::default().population, value_parser = population)]
+    population: usize,
     /// Generations of the genetic algorithm
     #[arg(long, help_heading = GENETIC, value_name = "N",
-          default_value_t = small(GeneticOptions::default().generations),
-          value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    generations: u32,
+          default_value_t = GeneticOptions::default().generations, value_parser = generations)]
+    generations: usize,
     /// Seed of the genetic algorithm
     #[arg(long, help_heading = GENETIC, value_name = "N",
           default_value_t = GeneticOptions::default().seed)]
@@ -73,8 +71,8 @@ impl Options {
             gyroscope: self.gyroscope,
             force: self.force,
             genetic: GeneticOptions {
-                population: self.population as usize,
-                generations: self.generations as usize,
+                population: self.population,
+                generations: self.generations,
                 seed: self.seed,
                 ..GeneticOptions::default()
             },
@@ -92,6 +90,18 @@ impl Options {
         given.extend(own.into_iter().filter(|(_, given)| *given).map(|(name, _)| name.to_owned()));
         given
     }
+}
+
+fn settle(text: &str) -> Result<f64, String> {
+    within(text, IdentifySettings::SETTLE_LIMITS)
+}
+
+fn population(text: &str) -> Result<usize, String> {
+    count_within(text, IdentifySettings::POPULATION_LIMITS)
+}
+
+fn generations(text: &str) -> Result<usize, String> {
+    count_within(text, IdentifySettings::GENERATIONS_LIMITS)
 }
 
 /// Identifies the parameters, prints them side by side and writes what the recording determines.

@@ -7,7 +7,7 @@ use crate::changes::{say_removed, say_written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::folder::prepare_folder;
-use crate::options::finite;
+use crate::options::within;
 use crate::progress::Progress;
 use crate::provenance::provenance;
 use crate::stderr::say;
@@ -19,7 +19,7 @@ use std::path::PathBuf;
 use trackdyn::crates::diagnose;
 use trackdyn::diagnose::corrected_beside;
 use trackdyn::plan::remove_earlier;
-use trackdyn::{Error, Limits, OpenQuestions, Plan, PlanSettings, Vehicle};
+use trackdyn::{Error, OpenQuestions, Plan, PlanSettings, Vehicle};
 
 /// Options of `trackdyn plan`.
 #[derive(Args)]
@@ -116,11 +116,6 @@ fn vehicle(options: &Options) -> Result<Vehicle, Box<dyn std::error::Error>> {
             format!("{error}\nexpected beside the diagnosis, or --vehicle").into()
         }),
     }
-}
-
-fn within(text: &str, limits: Limits) -> Result<f64, String> {
-    let value = finite(text).ok().filter(|value| limits.hold(*value));
-    value.ok_or_else(|| format!("expected {limits}"))
 }
 
 fn speed(text: &str) -> Result<f64, String> {

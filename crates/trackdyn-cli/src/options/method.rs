@@ -1,9 +1,9 @@
 //! Options of a diagnosis that a comparison has, too.
 
-use super::small;
+use super::count_within;
 use clap::Args;
 use std::path::PathBuf;
-use trackdyn::{Error, HeldOut, MethodSettings, Resampling};
+use trackdyn::{DiagnoseSettings, Error, HeldOut, MethodSettings, Resampling};
 
 /// Heading of options in the help.
 const BOOTSTRAP: &str = "Bootstrap";
@@ -16,9 +16,8 @@ pub struct MethodOptions {
     pub gyroscope: bool,
     /// Draws of the bootstrap behind the tests
     #[arg(long, help_heading = BOOTSTRAP, value_name = "N",
-          default_value_t = small(Resampling::default().draws),
-          value_parser = clap::value_parser!(u32).range(1000..=100_000))]
-    draws: u32,
+          default_value_t = Resampling::default().draws, value_parser = draws)]
+    draws: usize,
     /// Seed of the bootstrap
     #[arg(long, help_heading = BOOTSTRAP, value_name = "N",
           default_value_t = Resampling::default().seed)]
@@ -37,7 +36,7 @@ impl MethodOptions {
 
     /// Draws and seed of the bootstrap.
     pub fn resampling(&self) -> Resampling {
-        Resampling { draws: self.draws as usize, seed: self.seed }
+        Resampling { draws: self.draws, seed: self.seed }
     }
 
     /// The numbers of the method.
@@ -48,6 +47,10 @@ impl MethodOptions {
         let method = self.settings.as_deref().map(MethodSettings::open).transpose()?;
         Ok(method.unwrap_or_default())
     }
+}
+
+fn draws(text: &str) -> Result<usize, String> {
+    count_within(text, DiagnoseSettings::DRAWS_LIMITS)
 }
 
 /// The runs to judge a result on, as an option of this name says.

@@ -1,6 +1,6 @@
 //! Which vehicle is meant.
 
-use super::{VEHICLE, pair, positive};
+use super::{VEHICLE, number, pair};
 use crate::shell;
 use crate::stderr::note;
 use clap::Args;
@@ -75,7 +75,7 @@ pub struct GaugeOptions {
     vehicle: Option<PathBuf>,
     /// Gauge alone, in place of a vehicle: distance in m between the middles of the left and the
     /// right belts or tyres
-    #[arg(long, value_name = "M", value_parser = positive)]
+    #[arg(long, value_name = "M", value_parser = number)]
     gauge: Option<f64>,
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Comparison, Difference, Estimate, Member, Number, Quantity, Status, Subject, Which};
 use crate::hypothesis::{Unknown, find};
-use crate::proposal::words::decimals;
+use trackdyn_core::rounding::decimals;
 use trackdyn_model::EffectId;
 use trackdyn_model::effect::{Role, Symmetry};
 

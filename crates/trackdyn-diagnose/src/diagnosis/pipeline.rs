@@ -24,8 +24,9 @@ use trackdyn_model::{ActiveEffect, EffectId, VehicleFile};
 const SEARCH: usize = searched::STAGES_SHARPENED;
 
 /// Stages of the longest course: noise, readings and beginnings; search, search rescaled and
-/// verdicts; search and verdicts once more; location, held-out runs, proposal and limits.
-pub const STAGES: usize = 3 + (2 * SEARCH + 1) + (SEARCH + 1) + 4;
+/// verdicts; search and verdicts once more; location, held-out runs, proposal, limits and
+/// correction.
+pub const STAGES: usize = 3 + (2 * SEARCH + 1) + (SEARCH + 1) + 5;
 
 /// A diagnosis with the search that it rests on, for further questions to the same evidence.
 pub struct Examination {
@@ -143,18 +144,20 @@ pub fn examine(
     let limits = || (Limits::of(&judged), judged.exposures());
     let (limits, exposures) = watch.stage(Stage::Limits, limits)?;
 
-    let corrected = corrected(
-        file,
-        &judged.best,
-        judged.friction_level,
-        &judged.missing,
-        proposed.as_ref(),
-        judged.search.settings().verdict.min_icr_difference,
-    );
-
-    // Drift: errors of dead reckoning, in units of driving.
-    let judging = tested.unseen.as_ref().map_or(&judged.search.evidence, |unseen| &unseen.evidence);
-    let drift = Drift::of(judging, [file, &corrected]);
+    // Corrected: the vehicle file with the claims, and how far dead reckoning by it drifts.
+    let (corrected, drift) = watch.stage(Stage::Correction, || {
+        let corrected = corrected(
+            file,
+            &judged.best,
+            judged.friction_level,
+            &judged.missing,
+            proposed.as_ref(),
+            judged.search.settings().verdict.min_icr_difference,
+        );
+        let unseen = tested.unseen.as_ref().map(|unseen| &unseen.evidence);
+        let drift = Drift::of(unseen.unwrap_or(&judged.search.evidence), [file, &corrected]);
+        (corrected, drift)
+    })?;
 
     let Judged { search, screened: _, constants, best, friction_level, missing, refused } = judged;
     let place = located.sentence(&search);
@@ -164,6 +167,7 @@ pub fn examine(
         answer: Answer {
             status: super::status(&left_over, &missing),
             broken,
+            left_over,
             place,
             missing,
             refused,

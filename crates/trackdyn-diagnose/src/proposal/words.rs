@@ -2,6 +2,7 @@
 
 use super::Proposed;
 use crate::uncertainty::Interval;
+use trackdyn_core::rounding::decimals;
 use trackdyn_model::effect::Pairing;
 
 /// A number with its 95 % interval.
@@ -93,16 +94,6 @@ fn polar(pair: &[Interval]) -> [f64; 2] {
 /// Mean half width of the intervals of a pair.
 fn half(pair: &[Interval]) -> f64 {
     f64::midpoint(size(&pair[0]).half, size(&pair[1]).half)
-}
-
-/// Decimals that show an uncertainty with one or two digits.
-pub fn decimals(half: f64) -> usize {
-    if half <= 0.0 || !half.is_finite() {
-        return 4;
-    }
-    #[expect(clippy::cast_possible_truncation, reason = "a decimal exponent")]
-    let exponent = half.log10().floor() as i32;
-    usize::try_from((1 - exponent).clamp(0, 7)).unwrap_or(4)
 }
 
 #[cfg(test)]

@@ -1,7 +1,9 @@
 //! Why something is not claimed.
 
 use crate::hypothesis::Unknown;
+use crate::uncertainty::Interval;
 use std::fmt;
+use trackdyn_core::rounding::decimals;
 use trackdyn_model::EffectId;
 
 /// Why an effect is not claimed, with the value found and the value needed. Its text is a sentence
@@ -20,6 +22,8 @@ pub enum Refusal {
     MetOnce {
         /// Effective number of blocks that show it.
         blocks: f64,
+        /// Least number needed where p is not small.
+        needed: f64,
         /// Family-wise p value.
         p: f64,
     },
@@ -27,6 +31,8 @@ pub enum Refusal {
     Chance {
         /// Family-wise p value.
         p: f64,
+        /// Below this it would be claimed.
+        needed: f64,
     },
     /// Its cross-validated gain is too small.
     NotForetold {
@@ -62,11 +68,17 @@ pub enum Refusal {
     TooMany {
         /// Their number.
         effects: usize,
+        /// How many were refitted.
+        refitted: usize,
     },
     /// An effect of the vehicle file explains it at nearly the filed size.
     NearlyAsFiled {
         /// That effect.
         effect: EffectId,
+        /// Largest change of its sizes, as share of the filed ones.
+        change: f64,
+        /// Least share needed.
+        needed: f64,
     },
     /// Laws of the vehicle file with slightly other sizes may cause it.
     WithinFiled {
@@ -78,9 +90,17 @@ pub enum Refusal {
         needed: f64,
     },
     /// The intervals of all its sizes include the neutral size.
-    MayBeNone,
-    /// The interval of its place is wider than the area that was driven.
-    Nowhere,
+    MayBeNone {
+        /// Interval of the first of them.
+        interval: Interval,
+    },
+    /// The interval of a place, or of a time, is wider than what was driven.
+    Nowhere {
+        /// The interval.
+        interval: Interval,
+        /// Half width needed: half of what was driven.
+        needed: f64,
+    },
     /// Constant ICRs are nearly those of the vehicle file.
     ConstantsAsFiled {
         /// Largest difference, m.
@@ -94,7 +114,7 @@ impl Refusal {
     /// Whether numbers that an effect needs speak against it, and not what it explains: another one
     /// may explain that with possible numbers.
     pub fn is_of_numbers(&self) -> bool {
-        matches!(self, Self::AtLimit { .. } | Self::MayBeNone | Self::Nowhere)
+        matches!(self, Self::AtLimit { .. } | Self::MayBeNone { .. } | Self::Nowhere { .. })
     }
 }
 
@@ -104,41 +124,61 @@ impl fmt::Display for Refusal {
             Self::Weak { ln_bayes_factor, needed } => {
                 write!(f, "ln Bayes factor {ln_bayes_factor:.1}, below {needed}")
             }
-            Self::MetOnce { blocks, p } => {
-                write!(f, "may have happened once: {blocks:.1} blocks of time show it, p = {p:.3}")
+            Self::MetOnce { blocks, needed, p } => write!(
+                f,
+                "may have happened once: {blocks:.1} blocks of time show it, {needed} are needed \
+                 where p = {p:.3}"
+            ),
+            Self::Chance { p, needed } => {
+                write!(f, "may be chance: family-wise p = {p:.3}, not below {needed}")
             }
-            Self::Chance { p } => write!(f, "may be chance: family-wise p = {p:.3}"),
             Self::NotForetold { gain, error, needed } => write!(
                 f,
                 "gain on held-out blocks {gain:.1} is less than {needed} standard errors of \
                  {error:.1}"
             ),
-            Self::Unstable { share, .. } => {
-                write!(f, "named in {:.0} % of resampled recordings only", 100.0 * share)
-            }
-            Self::WithinForm { .. } => {
-                f.write_str("no larger than what the form of the other laws may leave")
-            }
-            Self::AtLimit { size, value } => {
-                let key = size.parameter().map_or("a number", |parameter| parameter.key);
-                write!(f, "{key} = {value} lies at the limit of what is physical")
-            }
-            Self::TooMany { effects } => write!(f, "{effects} effects explain it as well"),
-            Self::NearlyAsFiled { effect } => write!(
+            Self::Unstable { share, needed } => write!(
                 f,
-                "the vehicle file knows {effect}, which explains it at nearly the filed size"
+                "named in {:.0} % of resampled recordings, {:.0} % are needed",
+                100.0 * share,
+                100.0 * needed
             ),
-            Self::WithinFiled { laws, .. } => {
+            Self::WithinForm { z, needed } => write!(
+                f,
+                "{z:.1} standard deviations are no more than the {needed:.1} that the form of the \
+                 other laws may leave"
+            ),
+            Self::AtLimit { size, value } => {
+                write!(f, "{} = {value} lies at the limit of what is physical", key(*size))
+            }
+            Self::TooMany { effects, refitted } => {
+                write!(f, "{effects} effects explain it as well, of which {refitted} were refitted")
+            }
+            Self::NearlyAsFiled { effect, change, needed } => write!(
+                f,
+                "{effect} of the vehicle file explains it {:.0} % off its filed size, less than \
+                 {:.0} %",
+                100.0 * change,
+                100.0 * needed
+            ),
+            Self::WithinFiled { laws, apart, needed } => {
                 let names: Vec<&str> = laws.iter().map(|law| law.name()).collect();
                 let names = names.join(" and ");
-                write!(f, "no more than what {names} of a slightly other size may leave")
+                write!(
+                    f,
+                    "{apart:.1} standard deviations, less than {needed}, from what {names} of a \
+                     slightly other size may leave"
+                )
             }
-            Self::MayBeNone => {
-                f.write_str("the 95 % interval of each of its sizes includes the size of no effect")
+            Self::MayBeNone { interval } => {
+                write!(f, "the 95 % interval of {} includes no effect", Bounds(interval))
             }
-            Self::Nowhere => {
-                f.write_str("the 95 % interval of its place is wider than the area driven")
-            }
+            Self::Nowhere { interval, needed } => write!(
+                f,
+                "the 95 % interval of {} is wider than the {:.1} driven",
+                Bounds(interval),
+                2.0 * needed
+            ),
             Self::ConstantsAsFiled { largest, needed } => write!(
                 f,
                 "ICRs differ from the vehicle file's by {:.1} mm, less than {:.0} % of the gauge",
@@ -146,6 +186,22 @@ impl fmt::Display for Refusal {
                 100.0 * needed
             ),
         }
+    }
+}
+
+/// Name of a parameter in files.
+fn key(of: Unknown) -> &'static str {
+    of.parameter().map_or("a number", |parameter| parameter.key)
+}
+
+/// A parameter with the ends of its interval, as text.
+struct Bounds<'a>(&'a Interval);
+
+impl fmt::Display for Bounds<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Interval { unknown, low, high, .. } = *self.0;
+        let digits = decimals((high - low) / 2.0);
+        write!(f, "{} ({low:.digits$} to {high:.digits$})", key(unknown))
     }
 }
 
@@ -170,20 +226,27 @@ mod tests {
             ),
             (
                 Refusal::Unstable { share: 0.815, needed: 0.9 },
-                "named in 82 % of resampled recordings only".to_owned(),
+                "named in 82 % of resampled recordings, 90 % are needed".to_owned(),
             ),
             (
                 Refusal::AtLimit { size, value: 0.25 },
                 format!("{key} = 0.25 lies at the limit of what is physical"),
             ),
             (
-                Refusal::NearlyAsFiled { effect },
-                "the vehicle file knows yaw-inertia, which explains it at nearly the filed size"
+                Refusal::NearlyAsFiled { effect, change: 0.04, needed: 0.1 },
+                "yaw-inertia of the vehicle file explains it 4 % off its filed size, less than 10 %"
                     .to_owned(),
             ),
             (
+                Refusal::MayBeNone {
+                    interval: Interval { unknown: size, value: 0.01, low: -0.002, high: 0.022 },
+                },
+                format!("the 95 % interval of {key} (-0.002 to 0.022) includes no effect"),
+            ),
+            (
                 Refusal::WithinFiled { laws, apart: 1.0, needed: 3.0 },
-                "no more than what yaw-inertia and slope of a slightly other size may leave"
+                "1.0 standard deviations, less than 3, from what yaw-inertia and slope of a \
+                 slightly other size may leave"
                     .to_owned(),
             ),
             (

@@ -137,7 +137,7 @@ impl Rivals {
     pub fn too_many(&self) -> Option<Refusal> {
         let alike = self.alike.len();
         (self.unasked > 0 && alike >= self.exchanged.len())
-            .then_some(Refusal::TooMany { effects: alike + self.unasked })
+            .then_some(Refusal::TooMany { effects: alike + self.unasked, refitted: alike })
     }
 }
 

@@ -101,7 +101,8 @@ impl Rule {
             ),
             Self::PhysicalSize => "its sizes lie inside their physical ranges".to_owned(),
             Self::Interval => {
-                "the 95 % interval of at least one of its sizes excludes the size of no effect"
+                "the 95 % interval of at least one of its sizes excludes the value at which it \
+                 does nothing"
                     .to_owned()
             }
             Self::Place => {
@@ -146,8 +147,8 @@ impl Refusal {
             Self::TooMany { .. } => Rule::Rivals,
             Self::NearlyAsFiled { .. } => Rule::FiledSize,
             Self::WithinFiled { .. } => Rule::FiledLaws,
-            Self::MayBeNone => Rule::Interval,
-            Self::Nowhere => Rule::Place,
+            Self::MayBeNone { .. } => Rule::Interval,
+            Self::Nowhere { .. } => Rule::Place,
             Self::ConstantsAsFiled { .. } => Rule::Constants,
         }
     }

@@ -69,10 +69,10 @@ impl Support {
             return Some(Refusal::Weak { ln_bayes_factor, needed });
         }
         if self.is_met_once(rules) {
-            return Some(Refusal::MetOnce { blocks, p });
+            return Some(Refusal::MetOnce { blocks, needed: rules.min_blocks, p });
         }
         if p >= rules.max_p {
-            return Some(Refusal::Chance { p });
+            return Some(Refusal::Chance { p, needed: rules.max_p });
         }
         (held_out_gain < rules.min_held_out_gain * held_out_error).then_some(Refusal::NotForetold {
             gain: held_out_gain,
@@ -336,7 +336,8 @@ mod tests {
         let strong = Support { p: 0.9, ln_bayes_factor: 92.0, blocks: 1.4, ..Support::none() };
         let rules = &settings::Verdict::default();
         assert!(strong.is_met_once(rules));
-        assert_eq!(strong.falls_short(rules), Some(Refusal::MetOnce { blocks: 1.4, p: 0.9 }));
+        let refused = strong.falls_short(rules);
+        assert!(matches!(refused, Some(Refusal::MetOnce { blocks: 1.4, p: 0.9, .. })));
         for other in [
             Support { blocks: 20.0, ..strong },
             Support { p: 0.001, ..strong },

@@ -33,6 +33,11 @@ impl ActiveLaw {
         Self { law, values: values.into() }
     }
 
+    /// Whether works share its calls, see [`together`](super::together).
+    pub(crate) fn is_shared(&self) -> bool {
+        self.law.is_shared()
+    }
+
     /// Stage `shear` at one point.
     #[cold]
     pub(crate) fn shear<S: Scalar>(&self, site: &Site<S>, stress: &mut ShearStress<S>) {

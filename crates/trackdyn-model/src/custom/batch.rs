@@ -44,11 +44,19 @@ impl<'a> Batch<'a> {
 pub struct Results<'a> {
     rows: usize,
     columns: &'a mut [f64],
+    /// Arguments that the function read, a bit for each place; none where it does not tell.
+    pub(super) read: Option<u32>,
 }
 
 impl<'a> Results<'a> {
     pub(super) fn new(rows: usize, columns: &'a mut [f64]) -> Self {
-        Self { rows, columns }
+        Self { rows, columns, read: None }
+    }
+
+    /// Says which arguments the function read for this call: a bit for each place in
+    /// [`Kind::arguments`]. A function that never says so is taken to read all of them.
+    pub fn read(&mut self, places: u32) {
+        self.read = Some(self.read.unwrap_or(0) | places);
     }
 
     /// All columns, one behind the other.

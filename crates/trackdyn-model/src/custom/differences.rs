@@ -1,5 +1,6 @@
 //! Results of a law with derivatives by differences.
 
+use super::together::ask;
 use super::{Batch, CustomLaw};
 use trackdyn_core::Scalar;
 
@@ -12,8 +13,11 @@ const STEP: f64 = 6e-6;
 const MAX_ARGUMENT: f64 = 1e12;
 
 /// Results of a law at states of A arguments each. A state that no robot has makes all results NaN.
+///
+/// A law that tells what its function reads is differentiated by that alone, and once more where it
+/// turns out to have read something else: at other states, it may go other ways.
 pub fn results<S: Scalar, const A: usize, const R: usize>(
-    law: &CustomLaw,
+    law: &'static CustomLaw,
     values: &[f64],
     states: &[[S; A]],
 ) -> Vec<[S; R]> {
@@ -21,7 +25,22 @@ pub fn results<S: Scalar, const A: usize, const R: usize>(
     if !states.iter().all(is_sane) {
         return vec![[S::from(f64::NAN); R]; states.len()];
     }
-    let sought = if S::HAS_DERIVATIVES { law.sought() } else { &[] };
+    loop {
+        let sought = if S::HAS_DERIVATIVES { law.sought() } else { Vec::new() };
+        let found = results_by(law, values, states, &sought);
+        if !S::HAS_DERIVATIVES || !law.is_read_beyond(&sought) {
+            return found;
+        }
+    }
+}
+
+/// Results with derivatives by the arguments at these places.
+fn results_by<S: Scalar, const A: usize, const R: usize>(
+    law: &'static CustomLaw,
+    values: &[f64],
+    states: &[[S; A]],
+    sought: &[usize],
+) -> Vec<[S; R]> {
     let count = states.len();
     let rows = count * (1 + 2 * sought.len());
     let arguments = law.kind().arguments();
@@ -45,7 +64,7 @@ pub fn results<S: Scalar, const A: usize, const R: usize>(
         }
     }
     let at = Batch::new(law.kind(), rows, &columns);
-    let found = law.results(&at, values).unwrap_or_else(|failure| failure.unwind());
+    let found = ask(law, &at, values).unwrap_or_else(|failure| failure.unwind());
     if let Some(failure) = law.not_finite(&at, values, &found, count) {
         failure.unwind();
     }

@@ -6,6 +6,7 @@ use crate::effect::{Card, Stage, Symmetry};
 use std::error::Error;
 use std::fmt;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// What a function of a user returns: nothing, or why it cannot be evaluated.
 pub type Outcome = Result<(), Box<dyn Error + Send + Sync>>;
@@ -13,13 +14,19 @@ pub type Outcome = Result<(), Box<dyn Error + Send + Sync>>;
 /// What a law adds at states with these values of its parameters.
 type Function = dyn Fn(&Batch, &[f64], &mut Results) -> Outcome + Send + Sync;
 
+/// The bit of the arguments that were read which says that the function tells of them.
+const TELLS: u32 = 1 << 31;
+
 /// A law of a user.
 pub struct CustomLaw {
     kind: Kind,
     card: Card,
     function: Box<Function>,
-    /// Places of the arguments by which it is differentiated.
-    sought: Vec<usize>,
+    /// Arguments by which it is differentiated, a bit for each place.
+    sought: u32,
+    /// Those of them that its function has read so far, where it tells.
+    read: AtomicU32,
+    is_shared: bool,
 }
 
 impl fmt::Debug for CustomLaw {
@@ -90,16 +97,31 @@ impl CustomLaw {
             sources: &[],
         };
         let arguments = kind.arguments().iter().enumerate();
-        let sought = arguments.filter(|(_, one)| one.is_sought()).map(|(place, _)| place);
-        Ok(Self { kind, card, function: Box::new(function), sought: sought.collect() })
+        let sought = arguments.filter(|(_, one)| one.is_sought()).map(|(place, _)| 1 << place);
+        let (sought, read) = (sought.sum(), AtomicU32::new(0));
+        Ok(Self { kind, card, function: Box::new(function), sought, read, is_shared: false })
     }
 
     /// Says what the function reads: it is differentiated by nothing else, which is faster.
     #[must_use]
     pub fn reading(mut self, arguments: &[Argument]) -> Self {
-        let all = self.kind.arguments();
-        self.sought.retain(|place| arguments.contains(&all[*place]));
+        let all = self.kind.arguments().iter().enumerate();
+        let read = all.filter(|(_, one)| arguments.contains(one)).map(|(place, _)| 1 << place);
+        self.sought &= read.sum::<u32>();
         self
+    }
+
+    /// Says that a call takes long, whatever the number of states: works that go on
+    /// [`together`](super::together) share calls.
+    #[must_use]
+    pub fn shared(mut self) -> Self {
+        self.is_shared = true;
+        self
+    }
+
+    /// Whether works share its calls.
+    pub fn is_shared(&self) -> bool {
+        self.is_shared
     }
 
     /// The law with these symmetries on its card as broken.
@@ -118,17 +140,36 @@ impl CustomLaw {
         &self.card
     }
 
-    /// Places of the arguments by which it is differentiated.
-    pub(super) fn sought(&self) -> &[usize] {
-        &self.sought
+    /// Places of the arguments by which it is differentiated. Where the function tells what it
+    /// reads, these are the ones that it has read so far: see [`CustomLaw::is_read_beyond`].
+    pub(super) fn sought(&self) -> Vec<usize> {
+        let sought = self.sought & (self.read.load(Ordering::Relaxed) | !self.tells());
+        (0..self.kind.arguments().len()).filter(|place| sought >> place & 1 == 1).collect()
+    }
+
+    /// Whether the function has read an argument by which it was not differentiated.
+    pub(super) fn is_read_beyond(&self, sought: &[usize]) -> bool {
+        self.sought() != sought
+    }
+
+    /// All bits where the function has told what it reads, else none.
+    fn tells(&self) -> u32 {
+        if self.read.load(Ordering::Relaxed) & TELLS == 0 { 0 } else { u32::MAX }
     }
 
     /// What it adds at states, with values of its parameters.
     pub(super) fn results(&self, at: &Batch, values: &[f64]) -> Result<Vec<f64>, Failure> {
         let rows = at.len();
         let mut results = vec![self.kind.nothing(); rows * self.kind.results().len()];
-        (self.function)(at, values, &mut Results::new(rows, &mut results))
+        let mut adds = Results::new(rows, &mut results);
+        (self.function)(at, values, &mut adds)
             .map_err(|cause| self.failure(values, Cause::Raised(Arc::from(cause))))?;
+        if let Some(read) = adds.read {
+            let (before, read) = (self.read.load(Ordering::Relaxed), read | TELLS);
+            if before | read != before {
+                self.read.fetch_or(read, Ordering::Relaxed);
+            }
+        }
         Ok(results)
     }
 

@@ -145,6 +145,12 @@ impl Effects {
         self
     }
 
+    /// Whether one is a law of a user whose calls take long, so that works that go on
+    /// [`together`](crate::custom::together) share them.
+    pub fn share_calls(&self) -> bool {
+        self.0.iter().filter_map(ActiveEffect::custom).any(ActiveLaw::is_shared)
+    }
+
     /// Adds an effect; it replaces one of the same id.
     pub fn insert(&mut self, effect: ActiveEffect) {
         if effect.effect.custom().is_some() {

@@ -52,6 +52,9 @@ pub struct Source {
     /// Seed of the random numbers, if any were drawn.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seed: Option<u64>,
+    /// Bootstrap draws behind probabilities of chance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub draws: Option<usize>,
     /// Number of motions of each kind in the map.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motions: Option<BTreeMap<String, usize>>,

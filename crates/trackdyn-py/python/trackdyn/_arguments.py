@@ -40,9 +40,9 @@ def vehicle_of(vehicle: VehicleLike) -> Vehicle:
 
 def gauge_of(vehicle: VehicleLike | float) -> Any:
     """A gauge in m, or the vehicle that has it."""
-    if isinstance(vehicle, (int, float, np.integer, np.floating)):
+    if _values.is_number(vehicle):
         return _values.number("vehicle", vehicle)
-    return vehicle_of(vehicle)._inner
+    return vehicle_of(vehicle)._inner  # type: ignore[arg-type]
 
 
 def recording_of(recording: Any) -> RawRecording:

@@ -148,6 +148,11 @@ class Diagnosis:
 
         Layers of an earlier diagnosis go: write them after this.
 
+        Parameters
+        ----------
+        folder : str or path
+            Where they go. It is made where it is not there.
+
         Returns
         -------
         list of path
@@ -156,10 +161,20 @@ class Diagnosis:
         return list(self._computed().write(_values.path("folder", folder), COMMAND))
 
     def write_layers(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
-        """Write ``diagnosis.mcap`` for Foxglove, Rerun and PlotJuggler, and layouts; the files.
+        """Write ``diagnosis.mcap`` for Foxglove, Rerun and PlotJuggler, and layouts.
 
         In it are paths and ICRs as observed, by the vehicle as given and as corrected, whitened
         residuals before and after, and how the robot drives, as messages of ROS 2.
+
+        Parameters
+        ----------
+        folder : str or path
+            Where they go. It is made where it is not there.
+
+        Returns
+        -------
+        list of path
+            The files.
         """
         return list(self._computed().write_layers(_values.path("folder", folder), COMMAND))
 
@@ -186,6 +201,15 @@ class Diagnosis:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return object.__new__, (Diagnosis,), self._said
+
+    def __copy__(self) -> Diagnosis:
+        made = object.__new__(Diagnosis)
+        made._take(self._said, self._inner)
+        return made
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Diagnosis:
+        # nothing of what is shared can be changed
+        return self.__copy__()
 
     def __repr__(self) -> str:
         claims = "; ".join(" or ".join(claim.one_of) for claim in self.claims)
@@ -263,6 +287,10 @@ def diagnose(
         suspects anyway.
     progress : bool or callable
         Show a bar (tqdm), or call with stage, finished parts and all parts.
+
+    Returns
+    -------
+    Diagnosis
 
     Raises
     ------

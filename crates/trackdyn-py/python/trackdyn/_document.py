@@ -23,7 +23,13 @@ class Document:
         return self._inner.toml
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Write the file."""
+        """Write the file.
+
+        Parameters
+        ----------
+        path : str or path
+            Where it goes.
+        """
         self._inner.write(_values.path("path", path))
 
     def __eq__(self, other: object) -> bool:

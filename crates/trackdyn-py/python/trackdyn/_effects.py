@@ -40,7 +40,13 @@ class Effect:
 
 
 def effects() -> list[Effect]:
-    """The catalogue: physics that a vehicle can have beyond the base model."""
+    """The catalogue: physics that a vehicle can have beyond the base model.
+
+    Returns
+    -------
+    list of Effect
+        In the order of docs/effects.md. Laws of a user are not among them.
+    """
     return [
         Effect(
             **{

@@ -51,7 +51,13 @@ class Figure:
         return self._inner.to_svg()
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the picture: SVG where the path ends so, else PNG."""
+        """Write the picture.
+
+        Parameters
+        ----------
+        path : str or path
+            SVG where it ends so, else PNG.
+        """
         place = Path(_values.path("path", path))
         is_svg = place.suffix == ".svg"
         picture = self.to_svg().encode() if is_svg else self.to_png()
@@ -70,6 +76,11 @@ class Figure:
             Which of the panels of :attr:`data`.
         ax : matplotlib axes, optional
             Default: the current ones.
+
+        Returns
+        -------
+        matplotlib axes
+            Those that were drawn on.
         """
         from ._axes import draw
 
@@ -80,8 +91,23 @@ class Figure:
             raise _values.refused("ax", ax, "axes of matplotlib")
         return draw(panels[_values.whole("panel", panel)], ax)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self.data,)
+
+    def __copy__(self) -> Figure:
+        return Figure(self._inner)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Figure:
+        # nothing of what is shared can be changed
+        return self.__copy__()
+
     def _repr_png_(self) -> bytes:
         return self.to_png()
 
     def __repr__(self) -> str:
         return f"<Figure {self.name}: {self.title}>"
+
+
+def _restored(data: dict[str, Any]) -> Figure:
+    """A figure from a pickle."""
+    return Figure(_trackdyn.Figure.restore(data))

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _trackdyn, _values
 from ._arguments import RunsLike, gauge_of, parameters_of, runs_of, time_of
 from ._figure import Figure
 from ._parameters import Parameters
-from ._reading import reading
+from ._reading import ReadingOptions, reading
 from ._vehicle import VehicleLike
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 class Inspection:
@@ -82,7 +85,7 @@ def inspect(
     runs: RunsLike = None,
     time: Sequence[float] | None = None,
     tau: float | None = None,
-    **options: Any,
+    **options: Unpack[ReadingOptions],
 ) -> Inspection:
     """Judge a recording: what is there, what is missing for which use, what looks wrong.
 
@@ -101,10 +104,21 @@ def inspect(
     **options
         How it is read, as for :func:`trackdyn.read_recording`. What a bag needs beyond that is
         found where it can be.
+
+    Returns
+    -------
+    Inspection
+
+    Raises
+    ------
+    RecordingError
+        For what cannot be read at all.
+    SettingError
+        For an option whose value is not accepted.
     """
     found = _trackdyn.inspect(
         _values.path("path", path),
-        reading(**options),
+        reading(options),
         None if vehicle is None else gauge_of(vehicle),
         None if parameters is None else parameters_of(parameters),
         runs_of(runs),

@@ -95,12 +95,38 @@ class IcrKinematics:
         self.progress = progress
 
     def get_params(self, deep: bool = True) -> dict[str, Any]:
-        """The parameters of the estimator, by name."""
+        """The parameters of the estimator, by name.
+
+        Parameters
+        ----------
+        deep : bool
+            Not used: no parameter is an estimator.
+
+        Returns
+        -------
+        dict
+        """
         names = list(_inspect.signature(type(self).__init__).parameters)[1:]
         return {name: getattr(self, name) for name in names}
 
     def set_params(self, **params: Any) -> IcrKinematics:
-        """Set parameters of the estimator."""
+        """Set parameters of the estimator.
+
+        Parameters
+        ----------
+        **params
+            Values by the names of parameters.
+
+        Returns
+        -------
+        IcrKinematics
+            The estimator itself.
+
+        Raises
+        ------
+        SettingError
+            For a name that no parameter has.
+        """
         known = self.get_params()
         for name, value in params.items():
             if name not in known:
@@ -118,6 +144,11 @@ class IcrKinematics:
         y : None
             Not used.
 
+        Returns
+        -------
+        IcrKinematics
+            The estimator itself.
+
         Raises
         ------
         NotDeterminedError
@@ -127,7 +158,7 @@ class IcrKinematics:
         """
         keywords = {
             "tau": _values.maybe(_values.finite, "tau", self.tau),
-            "settle": _values.maybe(_values.duration, "settle", self.settle),
+            "settle": _values.maybe(_values.number, "settle", self.settle),
             "nuisances": _values.texts("nuisances", self.nuisances),
             "gyroscope": _values.flag("gyroscope", self.gyroscope),
             "force": _values.flag("force", self.force),
@@ -206,6 +237,11 @@ class IcrKinematics:
 
     def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
         """Write ``kinematics.toml``, ``kinematics_alpha.toml`` and ``identification.toml``.
+
+        Parameters
+        ----------
+        folder : str or path
+            Where they go. It is made where it is not there.
 
         Returns
         -------

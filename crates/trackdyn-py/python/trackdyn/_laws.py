@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import pickle
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, Union
@@ -12,7 +13,8 @@ from numpy.typing import NDArray
 
 from . import _trackdyn, _values
 from ._errors import EffectError, SettingError
-from ._trace import Taped, traced
+from ._shipping import bytes_of, digest, function_of, has_cloudpickle, imported, is_importable
+from ._trace import Taped, stand_in, traced
 
 #: An array of what a law sees, one number for each state.
 Column = NDArray[np.float64]
@@ -66,7 +68,7 @@ class Seen:
     slip, the pressure and the place of the point.
     """
 
-    __slots__ = ("_acts", "_columns")
+    __slots__ = ("_acts", "_columns", "_of_acts", "_read")
     _places: dict[str, dict[str, int]] = {
         acts: {name: place for place, name in enumerate(_trackdyn.law_arguments(acts))}
         for acts in _ADDS
@@ -75,16 +77,20 @@ class Seen:
     def __init__(self, acts: str, columns: Any) -> None:
         self._acts = acts
         self._columns = columns
+        self._of_acts = self._places[acts]
+        #: Columns that were read, a bit each.
+        self._read = 0
 
     def __len__(self) -> int:
         return len(self._columns[0])
 
     def _of(self, name: str) -> Column:
-        place = self._places[self._acts].get(name)
+        place = self._of_acts.get(name)
         if place is None:
             names = ", ".join(self._places[self._acts])
             found = f"{name}: a law that acts as {self._acts} does not see it"
             raise EffectError(f"{found}: expected {names}")
+        self._read |= 1 << place
         column: Column = self._columns[place]
         return column
 
@@ -204,12 +210,14 @@ class Law:
         Its parameters by their names.
     function : callable
         The function.
+    fingerprint : str
+        Fingerprint of its code, of the values around it, and of its parameters.
     breaks : str
         Letters of the symmetries of the ICRs that it breaks at typical values, see docs/effects.md.
     is_compiled : bool
         Whether what the function does was noted, so that no interpreter is needed: tens of times
-        faster. It takes arithmetic, functions of numpy element by element, ``np.where``,
-        ``np.select``, ``np.clip``, ``np.interp`` and ``np.polyval``.
+        faster. It takes arithmetic, masks, ``if``, loops over elements, functions of numpy, math
+        and ``scipy.special`` element by element, and splines of ``scipy.interpolate``.
     """
 
     def __init__(
@@ -229,16 +237,23 @@ class Law:
         self.__qualname__ = function.__qualname__
         self.__module__ = function.__module__
         self.__doc__ = function.__doc__
+        #: The function as bytes, where it was sent to another process or came from one.
+        self._sent: bytes | None = None
         self._check()
         counts = len(Seen._places[acts]), len(self.parameters), 3 if acts == "force" else 2
         samples = _samples(counts[0], self.parameters.values())
-        tape = traced(self._adds, self._called, counts, samples)
+        function = stand_in(self.function)
+        def adds_of(columns: Sequence[Any], values: Sequence[Any]) -> list[Any]:
+            """What the function returns for what stands for arrays."""
+            return self._adds(Seen(self.acts, columns), values, function)
+
+        tape = traced(adds_of, self._evaluated, counts, samples)
 
         def trace(values: Sequence[float]) -> Taped | None:
             """What the function does at these values, where that depends on them."""
             at_values = [(columns, values) for columns, _ in samples]
-            adds = lambda columns, _: self._adds(columns, values)  # noqa: E731
-            return traced(adds, self._called, counts, at_values)
+            adds = lambda columns, _: adds_of(columns, values)  # noqa: E731
+            return traced(adds, self._evaluated, counts, at_values)
 
         can_trace = tape is None and all(trace(values) for _, values in samples)
         self.is_compiled = tape is not None or can_trace
@@ -257,9 +272,11 @@ class Law:
         except TypeError as error:
             raise SettingError(f"law {self.id!r}: its function: {error}: {expected}") from None
 
-    def _adds(self, columns: Sequence[Any], values: Sequence[Any]) -> list[Any]:
+    def _adds(
+        self, seen: Seen, values: Sequence[Any], function: Callable[..., Any]
+    ) -> list[Any]:
         """What the function returns, as a list with all that a law of this kind adds."""
-        found = self.function(Seen(self.acts, columns), **dict(zip(self.parameters, values)))
+        found = function(seen, **dict(zip(self.parameters, values)))
         least, most, expected = _ADDS[self.acts]
         is_list = isinstance(found, (tuple, list)) or getattr(found, "ndim", 1) > 1
         adds = list(found) if is_list else [found]
@@ -269,18 +286,26 @@ class Law:
             return [adds[0], adds[-1]]
         return [*adds, 0.0] if len(adds) == least else adds
 
-    def _called(self, columns: Any, values: Sequence[float]) -> NDArray[np.float64]:
+    def _evaluated(self, columns: Any, values: Sequence[float]) -> NDArray[np.float64]:
         """What the law adds, rows of all that a law of this kind adds."""
-        adds = self._adds(columns, values)
+        return self._called(columns, values)[0]
+
+    def _called(
+        self, columns: Any, values: Sequence[float]
+    ) -> tuple[NDArray[np.float64], int]:
+        """What the law adds, and the columns that the function read, a bit each."""
+        seen = Seen(self.acts, columns)
+        adds = self._adds(seen, values, self.function)
         count = columns.shape[1]
         rows = np.empty((len(adds), count))
         for row, result in zip(rows, adds):
-            array = _values.floats(result)
+            is_row = isinstance(result, np.ndarray) and result.dtype == float
+            array = result if is_row else _values.floats(result)
             if array is None or array.shape not in ((), (1,), (count,)):
                 found = f"a {type(result).__name__}" if array is None else f"shape {array.shape}"
                 raise self._refused(found, f"numbers of shape ({count},), as in what it sees")
             row[:] = array
-        return rows
+        return rows, seen._read
 
     def _refused(self, found: str, expected: str) -> EffectError:
         names = ", ".join(self.parameters)
@@ -288,7 +313,18 @@ class Law:
         return EffectError(f"{found}: expected {expected}")
 
     def with_values(self, **parameters: float) -> str:
-        """The law as an effect of a vehicle: ``"id:parameter=value,..."``."""
+        """The law as an effect of a vehicle.
+
+        Parameters
+        ----------
+        **parameters : float
+            Values of its parameters; others have their typical ones.
+
+        Returns
+        -------
+        str
+            ``"id:parameter=value,..."``.
+        """
         unknown = [key for key in parameters if key not in self.parameters]
         if unknown:
             names = ", ".join(self.parameters)
@@ -301,12 +337,66 @@ class Law:
         """Call the function."""
         return self.function(at, *args, **parameters)
 
-    def __reduce__(self) -> str:
-        return self.__qualname__
+    @property
+    def fingerprint(self) -> str:
+        """Fingerprint of its code, of the values around it, and of its parameters."""
+        return digest(self.function, (self.id, self.acts, self.parameters))
+
+    def __reduce__(self) -> str | tuple[Any, ...]:
+        has_name = is_importable(self)
+        if has_name and not has_cloudpickle():
+            return self.__qualname__
+        return _received, self._parts((self.__module__, self.__qualname__) if has_name else None)
+
+    def _parts(self, name: tuple[str, str] | None) -> tuple[Any, ...]:
+        """What another process makes it from."""
+        if self._sent is None:
+            self._sent = bytes_of(self.function, self.id)
+        return name, self._sent, self.id, self.acts, self.parameters, self.summary
+
+    def __copy__(self) -> Law:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Law:
+        return self
 
     def __repr__(self) -> str:
         how = "compiled" if self.is_compiled else "called in the interpreter"
         return f"<Law {self.id}({', '.join(self.parameters)}), acts as {self.acts}, {how}>"
+
+
+def _received(
+    name: tuple[str, str] | None,
+    sent: bytes,
+    id: str,
+    acts: Literal["force", "friction"],
+    parameters: dict[str, Parameter],
+    summary: str,
+) -> Law:
+    """The law that another process sent: by its name, else by its function.
+
+    An error here would not reach the user of a cluster, who would wait for a worker for ever.
+    """
+    found = None if name is None else imported(*name)
+    if isinstance(found, Law):
+        return found
+    here = _LAWS.get(id)
+    if here is not None and here._sent == sent and here.parameters == parameters:
+        return here
+    made = Law(function_of(sent, id), id, acts, parameters, summary)
+    made._sent = sent
+    return made
+
+
+def carried(law: Law) -> bytes:
+    """A law as bytes: what it does now, whatever module of its name another process has."""
+    return pickle.dumps(law._parts(None) if has_cloudpickle() else law)
+
+
+def received(sent: bytes) -> Law:
+    """The law of such bytes."""
+    parts = pickle.loads(sent)
+    return parts if isinstance(parts, Law) else _received(*parts)
 
 
 #: A law, or the id of one that was defined.
@@ -340,6 +430,18 @@ def law(
         on the friction at a point of the contact, or one along and one across the track.
     summary : str
         What reports say of it. Default: the first line of the docstring.
+
+    Returns
+    -------
+    callable
+        A decorator, which makes a :class:`Law` of a function.
+
+    Raises
+    ------
+    EffectError
+        For an id, a parameter or a result that no law can have.
+    SettingError
+        For a function that does not take the parameters.
 
     Examples
     --------
@@ -406,12 +508,19 @@ def _samples(
 
 def ids_of(laws: LawLike | Iterable[LawLike] | None, name: str = "laws") -> list[str]:
     """Ids of laws that were defined."""
+    return [law.id for law in several_of(laws, name)]
+
+
+def several_of(laws: LawLike | Iterable[LawLike] | None, name: str = "laws") -> list[Law]:
+    """Laws that were defined."""
     several: Any = laws
     if laws is None:
         several = []
     elif isinstance(laws, (Law, str)):
         several = [laws]
-    return [_known(one, name).id for one in several]
+    if not isinstance(several, Iterable):
+        raise _values.refused(name, laws, "a law, as @td.law makes it, or several")
+    return [_known(one, name) for one in several]
 
 
 def _known(one: Any, name: str) -> Law:
@@ -424,5 +533,5 @@ def _known(one: Any, name: str) -> Law:
 
 
 def of_ids(ids: Iterable[str]) -> tuple[Law, ...]:
-    """The laws of these ids, for pickles: reading one imports the module that defines it."""
+    """The laws of these ids, for pickles: reading one defines it in the process that reads."""
     return tuple(_LAWS[one] for one in ids if one in _LAWS)

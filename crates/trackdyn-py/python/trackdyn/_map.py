@@ -13,6 +13,7 @@ from . import _trackdyn, _values
 from ._arguments import COMMAND, Progress, told, vehicle_of
 from ._figure import Figure
 from ._parameters import Parameters
+from ._result import Result
 from ._tables import Table
 from ._vehicle import Vehicle, VehicleLike
 
@@ -32,17 +33,42 @@ _QUANTITIES = {
 }
 
 
-class IcrMap:
+class IcrMap(Result):
     """The stationary motion of a vehicle for every pair of track speeds of a grid.
 
     Quantities are arrays of shape (n, n): rows are speeds of the left track, columns those of the
     right one, as :attr:`speeds`. :attr:`table` has a row for each pair.
+
+    Attributes
+    ----------
+    vehicle : Vehicle
+        The vehicle.
+    table : Table
+        All quantities, a row for each pair of track speeds.
     """
 
-    def __init__(self, inner: _trackdyn.IcrMap, vehicle: Vehicle) -> None:
-        self._inner = inner
-        self.vehicle = vehicle
+    __slots__ = ("table", "vehicle")
+    _SAYS = {
+        "speeds": lambda inner: inner.speeds,
+        "statistics": lambda inner: inner.statistics() or {},
+        "parameters": lambda inner: _parameters(inner),
+    }
+    table: Table
+    vehicle: Vehicle
+
+    def __init__(self, inner: _trackdyn.IcrMap, made_from: dict[str, Any]) -> None:
+        super().__init__(inner, made_from)
+        self.vehicle = made_from["vehicle"]
         self.table = Table(inner.columns())
+
+    @staticmethod
+    def _compute(**made_from: Any) -> _trackdyn.IcrMap:
+        points, max_speed, position, heading, time = made_from["settings"]
+        vehicle = made_from["vehicle"]._inner
+        return _trackdyn.icr_map(vehicle, points, max_speed, position, heading, time, None)
+
+    def _state(self) -> dict[str, Any]:
+        return {"vehicle": self.vehicle, "table": self.table}
 
     def _square(self, name: str) -> NDArray[Any]:
         count = len(self.speeds)
@@ -86,7 +112,7 @@ class IcrMap:
     @property
     def speeds(self) -> NDArray[np.float64]:
         """The speeds of both tracks, ascending, m/s."""
-        return np.asarray(self._inner.speeds)
+        return np.asarray(self._say("speeds"))
 
     @property
     def status_names(self) -> list[str]:
@@ -99,13 +125,13 @@ class IcrMap:
 
         Empty where no motion turns.
         """
-        return self._inner.statistics() or {}
+        return dict(self._say("statistics"))
 
     @property
     def parameters(self) -> Parameters | None:
         """The parameters to drive with; None where no motion turns."""
-        inner = self._inner.parameters(COMMAND)
-        return None if inner is None else Parameters._of(inner)
+        parameters: Parameters | None = self._say("parameters")
+        return parameters
 
     @property
     def figure(self) -> Figure:
@@ -129,7 +155,18 @@ class IcrMap:
         return self.table.to_frame()
 
     def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
-        """Write ``icr_map.png`` and, where the robot turns, ``kinematics.toml``; the files."""
+        """Write ``icr_map.png`` and, where the robot turns, ``kinematics.toml``.
+
+        Parameters
+        ----------
+        folder : str or path
+            Where they go. It is made where it is not there.
+
+        Returns
+        -------
+        list of path
+            The files.
+        """
         return list(self._inner.write(_values.path("folder", folder), COMMAND))
 
     def __repr__(self) -> str:
@@ -171,6 +208,15 @@ def icr_map(
     progress : bool or callable
         Show a bar (tqdm), or call with stage, finished parts and all parts.
 
+    Returns
+    -------
+    IcrMap
+
+    Raises
+    ------
+    SettingError
+        For a grid, a place, a heading or a time that cannot be.
+
     Examples
     --------
     >>> import trackdyn as td
@@ -181,6 +227,12 @@ def icr_map(
     x, y = _values.numbers("position", position, "x and y in m", 2)
     numbers = _values.number("heading", heading), _values.number("time", time)
     grid = _values.count("points", points), _values.number("max_speed", max_speed)
+    settings = (*grid, (x, y), *numbers)
     with told(progress, "map") as tell:
-        inner = _trackdyn.icr_map(of._inner, *grid, (x, y), *numbers, tell)
-    return IcrMap(inner, of)
+        inner = _trackdyn.icr_map(of._inner, *settings, tell)
+    return IcrMap(inner, {"vehicle": of, "settings": settings})
+
+
+def _parameters(inner: _trackdyn.IcrMap) -> Parameters | None:
+    found = inner.parameters(COMMAND)
+    return None if found is None else Parameters._of(found)

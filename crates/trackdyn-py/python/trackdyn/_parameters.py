@@ -47,7 +47,19 @@ class Parameters(Document):
 
     @classmethod
     def from_toml(cls, text: str, name: str = "kinematics.toml") -> Parameters:
-        """The parameters of the text of a kinematics file; errors call it `name`."""
+        """The parameters of the text of a kinematics file.
+
+        Parameters
+        ----------
+        text : str
+            The text.
+        name : str
+            What errors call it.
+
+        Returns
+        -------
+        Parameters
+        """
         name, text = _values.text("name", name), _values.text("text", text)
         return cls._of(_trackdyn.Parameters.from_toml(name, text))
 

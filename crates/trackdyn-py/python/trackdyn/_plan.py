@@ -12,28 +12,58 @@ from numpy.typing import NDArray
 from . import _trackdyn, _values
 from ._arguments import COMMAND, Progress, text_of_file, told, vehicle_of
 from ._diagnosis import Diagnosis
-from ._vehicle import VehicleLike
+from ._errors import DocumentError, VehicleError
+from ._result import Result
+from ._vehicle import Vehicle, VehicleLike
 
 
-class Plan:
+def _beside(diagnosis: str) -> Vehicle:
+    """The vehicle that a diagnosis corrected."""
+    try:
+        return Vehicle(Path(diagnosis).with_name("vehicle.corrected.toml"))
+    except (DocumentError, VehicleError) as error:
+        expected = "expected beside the diagnosis, or vehicle"
+        raise type(error)(f"{error}\n{expected}", error.setting) from None
+
+
+class Plan(Result):
     """What to drive next, and what it separates."""
 
-    __slots__ = ("_inner",)
+    __slots__ = ()
+    _SAYS = {
+        "schedule": lambda inner: inner.schedule(),
+        "document": lambda inner: inner.document(COMMAND),
+    }
 
-    def __init__(self, inner: _trackdyn.Plan) -> None:
-        self._inner = inner
+    @staticmethod
+    def _compute(**made_from: Any) -> _trackdyn.Plan:
+        diagnosis, vehicle = made_from["diagnosis"], made_from["vehicle"]._inner
+        fastest, duration, noise_xy, noise_yaw = made_from["settings"]
+        return _trackdyn.plan(diagnosis, vehicle, fastest, duration, noise_xy, noise_yaw, None)
 
     @property
     def schedule(self) -> NDArray[np.float64] | None:
         """The commands, of shape (n, 3): t (s), v_left, v_right (m/s). None: no driving decides."""
-        return self._inner.schedule()
+        schedule: NDArray[np.float64] | None = self._say("schedule")
+        return schedule
 
     def to_dict(self) -> dict[str, Any]:
         """The plan, as ``plan.toml`` says it."""
-        return self._inner.document(COMMAND)
+        return dict(self._say("document"))
 
     def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
-        """Write ``plan.csv``, a schedule for simulator and robot, and ``plan.toml``; the files."""
+        """Write ``plan.csv``, a schedule for simulator and robot, and ``plan.toml``.
+
+        Parameters
+        ----------
+        folder : str or path
+            Where they go. It is made where it is not there.
+
+        Returns
+        -------
+        list of path
+            The files.
+        """
         return list(self._inner.write(_values.path("folder", folder), COMMAND))
 
     def __repr__(self) -> str:
@@ -81,13 +111,15 @@ def plan(
         of = diagnosis.corrected_vehicle if vehicle is None else vehicle_of(vehicle)
     else:
         named = text_of_file(diagnosis, "diagnosis")
-        beside = Path(named[0]).with_name("vehicle.corrected.toml")
-        of = vehicle_of(beside if vehicle is None else vehicle)
+        # what is no diagnosis is said before a vehicle is sought beside it
+        _trackdyn.is_decided(named)
+        of = _beside(named[0]) if vehicle is None else vehicle_of(vehicle)
     limits = _values.number("fastest", fastest), _values.number("duration", duration)
     noise = (
         _values.maybe(_values.number, "noise_xy", noise_xy),
         _values.maybe(_values.number, "noise_yaw", noise_yaw),
     )
+    settings = (*limits, *noise)
     with told(progress, "plan") as tell:
-        inner = _trackdyn.plan(named, of._inner, *limits, *noise, tell)
-    return Plan(inner)
+        inner = _trackdyn.plan(named, of._inner, *settings, tell)
+    return Plan(inner, {"diagnosis": named, "vehicle": of, "settings": settings})

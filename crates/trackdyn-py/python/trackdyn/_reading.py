@@ -4,83 +4,86 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypedDict
 
 from . import _trackdyn, _values
 from ._arguments import warn_of
+from ._errors import SettingError
 from ._recording import Recording
 
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
-def reading(
-    *,
-    tracks: str | os.PathLike[str] | None = None,
-    columns: str | Mapping[str, str] | None = None,
-    tracks_topic: str | None = None,
-    left_joints: str | Sequence[str] | None = None,
-    right_joints: str | Sequence[str] | None = None,
-    joint_signal: str | None = None,
-    wheel_radius: float | None = None,
-    pose_topic: str | None = None,
-    pose_index: int | None = None,
-    parent_frame: str | None = None,
-    child_frame: str | None = None,
-    imu_topic: str | None = None,
-    twist_topic: str | None = None,
-    separation: float | None = None,
-    left_signals: str | Sequence[str] | None = None,
-    right_signals: str | Sequence[str] | None = None,
-    speed_unit: str | None = None,
-    msg_dir: str | os.PathLike[str] | None = None,
-    dated_by: str | None = None,
-    pose_unit: str | None = None,
-    pose_axes: str | None = None,
-    mount_yaw: float | None = None,
-    gyro_unit: str | None = None,
-    accept: str | Sequence[str] | None = None,
-) -> dict[str, Any]:
-    """The options of reading, all of them."""
-    if isinstance(columns, Mapping):
-        columns = ",".join(f"{key}={name}" for key, name in columns.items())
-    of: dict[Callable[[str, Any], object], dict[str, Any]] = {
-        _values.text: {
-            "columns": columns,
-            "tracks_topic": tracks_topic,
-            "joint_signal": joint_signal,
-            "pose_topic": pose_topic,
-            "parent_frame": parent_frame,
-            "child_frame": child_frame,
-            "imu_topic": imu_topic,
-            "twist_topic": twist_topic,
-            "speed_unit": speed_unit,
-            "dated_by": dated_by,
-            "pose_unit": pose_unit,
-            "pose_axes": pose_axes,
-            "gyro_unit": gyro_unit,
-        },
-        _values.number: {
-            "wheel_radius": wheel_radius,
-            "separation": separation,
-        },
-        _values.finite: {"mount_yaw": mount_yaw},
-        _values.count: {"pose_index": pose_index},
-        _values.path: {"tracks": tracks, "msg_dir": msg_dir},
-    }
-    lists = {
-        "left_joints": left_joints,
-        "right_joints": right_joints,
-        "left_signals": left_signals,
-        "right_signals": right_signals,
-        "accept": accept,
-    }
+
+class ReadingOptions(TypedDict, total=False):
+    """How a recording is read, see :func:`trackdyn.read_recording`."""
+
+    tracks: str | os.PathLike[str] | None
+    columns: str | Mapping[str, str] | None
+    tracks_topic: str | None
+    left_joints: str | Sequence[str] | None
+    right_joints: str | Sequence[str] | None
+    joint_signal: str | None
+    wheel_radius: float | None
+    pose_topic: str | None
+    pose_index: int | None
+    parent_frame: str | None
+    child_frame: str | None
+    imu_topic: str | None
+    twist_topic: str | None
+    separation: float | None
+    left_signals: str | Sequence[str] | None
+    right_signals: str | Sequence[str] | None
+    speed_unit: str | None
+    msg_dir: str | os.PathLike[str] | None
+    dated_by: str | None
+    pose_unit: str | None
+    pose_axes: str | None
+    mount_yaw: float | None
+    gyro_unit: str | None
+    accept: str | Sequence[str] | None
+
+
+_Check = Callable[[str, Any], object]
+
+#: How the value of each option is checked.
+_CHECKS: dict[str, _Check] = {
+    **dict.fromkeys(ReadingOptions.__annotations__, _values.text),
+    **dict.fromkeys(("tracks", "msg_dir"), _values.path),
+    **dict.fromkeys(("wheel_radius", "separation"), _values.number),
+    "mount_yaw": _values.finite,
+    "pose_index": _values.count,
+}
+
+#: Options that may have several values.
+_LISTS = "left_joints", "right_joints", "left_signals", "right_signals", "accept"
+
+
+def reading(options: Mapping[str, Any]) -> dict[str, Any]:
+    """All options of reading, checked, as the library takes them.
+
+    Raises
+    ------
+    SettingError
+        For one that there is not, or a value of another kind.
+    """
+    for name in options:
+        if name not in _CHECKS:
+            raise SettingError(f"{name}: expected one of {', '.join(_CHECKS)}", name)
+    given = dict(options)
+    if isinstance(given.get("columns"), Mapping):
+        given["columns"] = ",".join(f"{key}={name}" for key, name in given["columns"].items())
     single = {
-        name: _values.maybe(check, name, value)
-        for check, values in of.items()
-        for name, value in values.items()
+        name: _values.maybe(check, name, given.get(name))
+        for name, check in _CHECKS.items()
+        if name not in _LISTS
     }
-    return {**single, **{name: _values.texts(name, value) for name, value in lists.items()}}
+    return {**single, **{name: _values.texts(name, given.get(name)) for name in _LISTS}}
 
 
-def read_recording(path: str | os.PathLike[str], **options: Any) -> Recording:
+def read_recording(
+    path: str | os.PathLike[str], **options: Unpack[ReadingOptions]
+) -> Recording:
     """Read a recording.
 
     Parameters
@@ -144,6 +147,6 @@ def read_recording(path: str | os.PathLike[str], **options: Any) -> Recording:
     SettingError
         For an option whose value is not accepted.
     """
-    inner = _trackdyn.Recording.open(_values.path("path", path), reading(**options))
+    inner = _trackdyn.Recording.open(_values.path("path", path), reading(options))
     warn_of(inner)
     return Recording._of(inner)

@@ -64,7 +64,7 @@ class Recording:
 
         Parameters
         ----------
-        tracks : mapping, frame, structured array, or array of shape (n, 3)
+        tracks : mapping, frame, table of Arrow, structured array, or array of shape (n, 3)
             Columns ``t`` (s), ``v_left``, ``v_right`` (m/s, forward positive).
         poses : the same kinds, or array of shape (m, 4)
             Columns ``t`` (s, by the clock of the tracks up to a constant), ``x``, ``y`` (m), ``yaw``
@@ -79,6 +79,15 @@ class Recording:
             Doubts that do not stop the reader, because you know better: ``"travel"``, ``"stamps"``,
             ``"yaw-unit"``, ``"orientation"``, ``"out-of-plane"``, ``"signs"``, ``"dead-encoder"``,
             ``"stuck-poses"``.
+
+        Returns
+        -------
+        Recording
+
+        Raises
+        ------
+        RecordingError
+            For columns that are missing or hold no numbers, and for what the reader doubts.
 
         Notes
         -----
@@ -184,6 +193,10 @@ class Recording:
             These runs only, such as ``"7,8,20-29"``.
         time : pair of float, optional
             This time of each run only, s from its first reading.
+
+        Returns
+        -------
+        Recording
         """
         return self._of(self._inner.part(runs_of(runs), time_of(time)), self._warnings)
 
@@ -214,7 +227,10 @@ class Recording:
 def _split(series: str, rows: Any) -> tuple[bool, dict[int, NDArray[np.float64]]]:
     """Whether runs are numbered, and the rows of each in the order of the columns of a series."""
     columns = _COLUMNS[series]
-    names = getattr(getattr(rows, "dtype", None), "names", None) or getattr(rows, "columns", None)
+    # of structured arrays, of Arrow, of frames
+    places = (getattr(rows, "dtype", None), "names"), (rows, "column_names"), (rows, "columns")
+    found_names = (getattr(of, name, None) for of, name in places)
+    names = next((one for one in found_names if one is not None), None)
     if isinstance(rows, Mapping) or names is not None:
         known = list(rows) if isinstance(rows, Mapping) else list(names)  # type: ignore[arg-type]
         missing = [name for name in columns if name not in known]

@@ -13,22 +13,41 @@ from . import _trackdyn, _values
 from ._arguments import COMMAND, Progress, seed_of, told, vehicle_of
 from ._errors import DrivingError, SettingError
 from ._recording import Recording
+from ._result import Result
 from ._tables import Table
 from ._vehicle import Vehicle, VehicleLike
 
 
-class Simulation:
-    """A robot that was driven in simulation: what its sensors recorded, and how it really moved."""
+class Simulation(Result):
+    """A robot that was driven in simulation: what its sensors recorded, and how it really moved.
 
-    __slots__ = ("_inner", "_truth", "recording", "vehicle")
+    Attributes
+    ----------
+    recording : Recording
+        What the sensors recorded.
+    vehicle : Vehicle
+        The vehicle as it was driven.
+    """
 
-    def __init__(self, inner: _trackdyn.Simulation) -> None:
-        self._inner = inner
-        self._truth: Table | None = None
-        #: What the sensors recorded.
+    __slots__ = ("_truth", "recording", "vehicle")
+    _SAYS = {"document": lambda inner: inner.document(COMMAND)}
+    _truth: Table | None
+    recording: Recording
+    vehicle: Vehicle
+
+    def __init__(self, inner: _trackdyn.Simulation, made_from: dict[str, Any]) -> None:
+        super().__init__(inner, made_from)
+        self._truth = None
         self.recording = Recording._of(inner.recording)
-        #: The vehicle as it was driven.
         self.vehicle = Vehicle._of(inner.vehicle)
+
+    @staticmethod
+    def _compute(**made_from: Any) -> _trackdyn.Simulation:
+        vehicle, keywords, seed = (made_from[key] for key in ("vehicle", "keywords", "seed"))
+        return _trackdyn.simulate(vehicle._inner, keywords, seed, None)
+
+    def _state(self) -> dict[str, Any]:
+        return {"recording": self.recording, "vehicle": self.vehicle, "_truth": self.truth}
 
     @property
     def truth(self) -> Table:
@@ -43,10 +62,21 @@ class Simulation:
 
     def to_dict(self) -> dict[str, Any]:
         """What it was made from, as ``simulation.toml`` says it."""
-        return self._inner.document(COMMAND)
+        return dict(self._say("document"))
 
     def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
-        """Write the recording, ``truth.csv`` and what it was made from; the files."""
+        """Write the recording, ``truth.csv`` and what it was made from.
+
+        Parameters
+        ----------
+        folder : str or path
+            Where they go. It is made where it is not there.
+
+        Returns
+        -------
+        list of path
+            The files.
+        """
         return list(self._inner.write(_values.path("folder", folder), COMMAND))
 
     def __repr__(self) -> str:
@@ -102,9 +132,10 @@ def simulate(
         Depends on the arguments alone, not on the number of threads.
     """
     keywords = _keywords(schedule, runs, duration, fastest, sensors, start, inertia, longest_step)
+    of, number = vehicle_of(vehicle), seed_of(seed)
     with told(progress, "simulate") as tell:
-        inner = _trackdyn.simulate(vehicle_of(vehicle)._inner, keywords, seed_of(seed), tell)
-    return Simulation(inner)
+        inner = _trackdyn.simulate(of._inner, keywords, number, tell)
+    return Simulation(inner, {"vehicle": of, "keywords": keywords, "seed": number})
 
 
 def simulate_batch(
@@ -157,13 +188,14 @@ def simulate_batch(
     with told(progress, "simulate") as tell:
         found = _trackdyn.simulate_batch(inner, keywords, numbers, tell)
     simulated: list[Simulation | None] = []
-    for one in found:
+    for one, of, number in zip(found, vehicles, numbers):
         if isinstance(one, BaseException):
             if errors == "raise":
                 raise one
             simulated.append(None)
         else:
-            simulated.append(Simulation(one))
+            made_from = {"vehicle": of, "keywords": keywords, "seed": number}
+            simulated.append(Simulation(one, made_from))
     return simulated
 
 

@@ -63,5 +63,15 @@ class Table(dict[str, NDArray[Any]]):
         """All columns as a stream of Arrow with one batch. The schema asked for is not heeded."""
         return arrow_stream(dict(self))
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (dict(self),)
+
     def __repr__(self) -> str:
         return f"<Table of {self.rows} rows: {', '.join(self)}>"
+
+
+def _restored(columns: dict[str, NDArray[Any]]) -> Table:
+    """A table from a pickle: nobody writes to its columns, as to those of the library."""
+    for column in columns.values():
+        column.flags.writeable = False
+    return Table(columns)

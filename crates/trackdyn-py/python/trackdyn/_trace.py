@@ -1,196 +1,122 @@
 """What a function does with its arrays, as steps that need no interpreter.
 
-A function of a law is called once with objects that stand for arrays and note what is done with
-them. What cannot be noted so, such as a loop over elements, leaves the function to the interpreter.
+A function of a law is called with objects that stand for arrays and note what is done with them.
+Where it asks for a truth, as in ``if``, it is called once for each answer, and steps choose between
+the paths. Its names for numpy, math and scipy stand for functions that know these objects. What
+cannot be noted so leaves the function to the interpreter.
+
+What is noted is compared with what the function gives for arrays. A function that gives something
+else for a state in the company of others is thus found out, and left to the interpreter.
 """
 
 from __future__ import annotations
 
+import math
+import types
 from collections.abc import Callable, Sequence
-from typing import Any, Union
+from typing import Any
 
 import numpy as np
-from numpy.lib.mixins import NDArrayOperatorsMixin
 
 from . import _trackdyn
-
-#: A number, or the name of a function of numpy and the places of its arguments.
-Step = Union[float, tuple[str, list[int]]]
+from ._shipping import names_of
+from ._tape import NotTraceableError, Step, Tape, Traced
+from ._traced_numpy import module_functions, set_current, spline_of
 
 #: Steps, and the places of the results.
 Taped = tuple[list[Step], list[int]]
 
-#: Most steps: each point of a table takes several.
-_MAX_STEPS = 2000
+#: Most paths through a function.
+_MAX_PATHS = 64
 
 #: Results by steps and by the function may differ by so much of the largest one.
 _MAX_DIFFERENCE = 1e-12
 
-#: Functions of bits, which are logical ones for comparisons.
-_LOGICAL = {
-    "bitwise_and": "logical_and",
-    "bitwise_or": "logical_or",
-    "bitwise_xor": "logical_xor",
-    "invert": "logical_not",
-}
+#: Modules whose functions know what is traced, or are not to be looked into.
+_FOREIGN = ("numpy", "scipy", "math", "builtins", "trackdyn")
 
 
-class NotTraceableError(Exception):
-    """What a function does is no list of steps."""
+class _Module:
+    """Stands for a module of numpy, or for math."""
+
+    def __init__(self, real: types.ModuleType) -> None:
+        self._real = real
+        self._functions = module_functions(real)
+
+    def __getattr__(self, name: str) -> Any:
+        if name in self._functions:
+            return self._functions[name]
+        found = getattr(self._real, name)
+        return _Module(found) if isinstance(found, types.ModuleType) else found
 
 
-class Tape:
-    """Steps as they are noted. Places count columns first, then parameters, then steps."""
-
-    def __init__(self, columns: int, parameters: int) -> None:
-        self.before = columns + parameters
-        self.steps: list[Step] = []
-        self._numbers: dict[float, int] = {}
-
-    def place(self, value: Any) -> int:
-        """The place of a value: of one that is traced, or of a number."""
-        if isinstance(value, Traced):
-            if value._tape is not self:
-                raise NotTraceableError("a value of another call")
-            return value._place
-        if isinstance(value, (bool, int, float, np.bool_, np.integer, np.floating)):
-            number = float(value)
-            if number not in self._numbers or number == 0.0 or number != number:
-                self._numbers[number] = self._noted(number)
-            return self._numbers[number]
-        raise NotTraceableError(f"a value of type {type(value).__name__}")
-
-    def call(self, name: str, *values: Any, is_truth: bool = False) -> Traced:
-        """The value of a function of numpy."""
-        return Traced(self, self._noted((name, [self.place(one) for one in values])), is_truth)
-
-    def _noted(self, step: Step) -> int:
-        if len(self.steps) >= _MAX_STEPS:
-            raise NotTraceableError("too many steps")
-        self.steps.append(step)
-        return self.before + len(self.steps) - 1
+def _number(real: Callable[..., Any]) -> Callable[..., Any]:
+    """A conversion to a number, which leaves what is traced as it is."""
+    return lambda value=0.0, *rest: value if isinstance(value, Traced) else real(value, *rest)
 
 
-_COMPARISONS = {"greater", "greater_equal", "less", "less_equal", "equal", "not_equal"}
+#: Functions of the interpreter that take what is traced for numbers.
+_BUILTINS = {"float": _number(float)}
 
 
-class Traced(NDArrayOperatorsMixin):
-    """Stands for an array of one dimension, and notes what is done with it."""
-
-    ndim = 1
-    __slots__ = ("_is_truth", "_place", "_tape")
-
-    def __init__(self, tape: Tape, place: int, is_truth: bool = False) -> None:
-        self._tape = tape
-        self._place = place
-        self._is_truth = is_truth
-
-    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **keywords: Any) -> Any:
-        out = keywords.pop("out", None)
-        if method != "__call__" or keywords or ufunc.nout != 1:
-            raise NotTraceableError(f"{ufunc.__name__} with keywords or a method")
-        truths = [getattr(one, "_is_truth", isinstance(one, (bool, np.bool_))) for one in inputs]
-        name = ufunc.__name__
-        if name in _LOGICAL:
-            if not all(truths):
-                raise NotTraceableError(f"{name} of numbers")
-            name = _LOGICAL[name]
-        elif name in ("negative", "subtract", "add") and all(truths):
-            raise NotTraceableError(f"{name} of truths")
-        is_truth = name in _COMPARISONS or name.startswith("logical_")
-        found = self._tape.call(name, *inputs, is_truth=is_truth)
-        if out is None:
-            return found
-        (into,) = out
-        if not isinstance(into, Traced) or into._is_truth != is_truth:
-            raise NotTraceableError("a result in an array")
-        # an array that is changed in place is changed under all its names
-        into._place = found._place
-        return into
-
-    def __array_function__(
-        self, function: Callable[..., Any], types: Any, values: Any, keywords: Any
-    ) -> Any:
-        known = _FUNCTIONS.get(function.__name__)
-        if known is None:
-            raise NotTraceableError(f"np.{function.__name__}")
-        return known(self._tape, *values, **keywords)
-
-    def _refuse(self, *_: Any, **__: Any) -> Any:
-        raise NotTraceableError("an array whose numbers are looked at")
-
-    __array__ = __bool__ = __float__ = __int__ = __index__ = __complex__ = _refuse
-    __len__ = __iter__ = __getitem__ = __setitem__ = __contains__ = _refuse
-    __hash__ = None  # type: ignore[assignment]
-
-    def copy(self) -> Traced:
-        return Traced(self._tape, self._place, self._is_truth)
-
-    def clip(self, low: Any = None, high: Any = None) -> Traced:
-        return _clip(self._tape, self, low, high)
+def stand_in(function: Any) -> Any:
+    """The function with names for numpy and math that know what is traced."""
+    return _stand_in(function, {})
 
 
-def _where(tape: Tape, condition: Any, yes: Any, no: Any) -> Traced:
-    return tape.call("where", condition, yes, no)
-
-
-def _clip(tape: Tape, value: Any, a_min: Any = None, a_max: Any = None) -> Traced:
-    if a_min is not None:
-        value = tape.call("maximum", value, a_min)
-    return value if a_max is None else tape.call("minimum", value, a_max)
-
-
-def _like(number: float) -> Callable[..., Traced]:
-    return lambda tape, _: Traced(tape, tape.place(number))
-
-
-def _full(tape: Tape, _: Any, fill_value: Any) -> Traced:
-    return Traced(tape, tape.place(fill_value))
-
-
-def _interp(tape: Tape, x: Any, xp: Any, fp: Any) -> Traced:
-    """A table with straight lines between its points."""
-    places, values = np.asarray(xp, dtype=float), np.asarray(fp, dtype=float)
-    if places.ndim != 1 or places.shape != values.shape or np.any(np.diff(places) <= 0.0):
-        raise NotTraceableError("a table that does not ascend")
-    found = Traced(tape, tape.place(float(values[-1])))
-    for k in range(len(places) - 2, -1, -1):
-        slope = float((values[k + 1] - values[k]) / (places[k + 1] - places[k]))
-        line = (x - float(places[k])) * slope + float(values[k])
-        found = tape.call("where", x < float(places[k + 1]), line, found)
-    return tape.call("where", x <= float(places[0]), float(values[0]), found)
-
-
-def _select(tape: Tape, conditions: Any, choices: Any, default: Any = 0.0) -> Traced:
-    found = Traced(tape, tape.place(default))
-    for condition, choice in zip(reversed(conditions), reversed(choices)):
-        found = tape.call("where", condition, choice, found)
+def _stand_in(value: Any, made: dict[int, Any]) -> Any:
+    if id(value) in made:
+        return made[id(value)]
+    found = value
+    if isinstance(value, types.ModuleType):
+        if value is math or value.__name__.split(".")[0] == "numpy":
+            found = _Module(value)
+    elif isinstance(value, types.FunctionType):
+        module = (value.__module__ or "").split(".")[0]
+        found = _of_module(value) if module in _FOREIGN else _function(value, made)
+    elif isinstance(value, np.vectorize):
+        found = _stand_in(value.pyfunc, made)
+    elif hasattr(value, "function") and hasattr(value, "parameters"):  # another law
+        found = _stand_in(value.function, made)
+    elif hasattr(value, "py_func"):  # compiled by numba
+        found = _stand_in(value.py_func, made)
+    elif isinstance(value, types.BuiltinFunctionType):
+        found = _of_module(value)
+    else:
+        found = spline_of(value) or value
+    made[id(value)] = found
     return found
 
 
-def _polyval(tape: Tape, p: Any, x: Any) -> Traced:
-    found = Traced(tape, tape.place(0.0))
-    for coefficient in p:
-        found = found * x + (coefficient if isinstance(coefficient, Traced) else float(coefficient))
+def _of_module(function: Any) -> Any:
+    """A function that was imported by its name alone."""
+    name = getattr(function, "__name__", "")
+    for module in (math, np, np.linalg):
+        if getattr(module, name, None) is function:
+            return module_functions(module).get(name, function)
+    return function
+
+
+def _function(function: types.FunctionType, made: dict[int, Any]) -> Any:
+    around = function.__globals__
+    names: dict[str, Any] = {**_BUILTINS, "__builtins__": around.get("__builtins__", __builtins__)}
+    code = function.__code__
+    cells = [types.CellType() for _ in code.co_freevars]
+    found = types.FunctionType(code, names, function.__name__, None, tuple(cells))
+    # functions may name each other
+    made[id(function)] = found
+    for cell, real in zip(cells, function.__closure__ or ()):
+        try:
+            cell.cell_contents = _stand_in(real.cell_contents, made)
+        except ValueError:  # not yet filled
+            pass
+    for name in names_of(code):
+        if name in around:
+            names[name] = _stand_in(around[name], made)
+    defaults = function.__defaults__
+    found.__defaults__ = defaults and tuple(_stand_in(one, made) for one in defaults)
+    found.__kwdefaults__ = function.__kwdefaults__
     return found
-
-
-def _real(tape: Tape, value: Any) -> Traced:
-    return Traced(tape, tape.place(value))
-
-
-_FUNCTIONS: dict[str, Callable[..., Traced]] = {
-    "where": _where,
-    "select": _select,
-    "polyval": _polyval,
-    "clip": _clip,
-    "zeros_like": _like(0.0),
-    "ones_like": _like(1.0),
-    "full_like": _full,
-    "interp": _interp,
-    "real": _real,
-    "copy": _real,
-}
 
 
 def traced(
@@ -214,17 +140,54 @@ def traced(
     """
     columns, parameters, _ = counts
     tape = Tape(columns, parameters)
-    stand_ins = [Traced(tape, place) for place in range(columns + parameters)]
+
+    def path() -> list[int]:
+        stand_ins = [Traced(tape, place) for place in range(columns + parameters)]
+        return [tape.place(one) for one in results(stand_ins[:columns], stand_ins[columns:])]
+
+    set_current(tape)
     try:
-        found = results(stand_ins[:columns], stand_ins[columns:])
-        places = [tape.place(one) for one in found]
+        places = _all_paths(tape, path)
         for rows, values in samples:
             taped = _trackdyn.taped(counts, tape.steps, places, rows, list(values))
+            set_current(None)
             with np.errstate(all="ignore"):
                 expected = called(rows, values)
             largest = np.max(np.abs(expected), axis=1, keepdims=True)
-            if not np.all(np.abs(taped - expected) <= _MAX_DIFFERENCE * largest):
+            is_near = np.abs(taped - expected) <= _MAX_DIFFERENCE * largest
+            if not np.all(is_near | (np.isnan(taped) & np.isnan(expected))):
                 return None
     except Exception:  # noqa: BLE001 what stands for arrays may raise anything in any function
         return None
+    finally:
+        set_current(None)
     return tape.steps, places
+
+
+def _all_paths(tape: Tape, path: Callable[[], list[int]]) -> list[int]:
+    """Places of the results, chosen between all paths through a function."""
+    paths = 0
+
+    def along(given: list[bool]) -> list[int]:
+        nonlocal paths
+        paths += 1
+        if paths > _MAX_PATHS:
+            raise NotTraceableError("too many paths")
+        tape.begin(given)
+        places = path()
+        asked = list(tape.asked.items())
+        for number in range(len(asked) - 1, len(given) - 1, -1):
+            condition = Traced(tape, asked[number][0])
+            otherwise = along([answer for _, answer in asked[:number]] + [False])
+            pairs = zip(places, otherwise)
+            chosen = (
+                yes if yes == no else _where(tape, condition, yes, no) for yes, no in pairs
+            )
+            places = list(chosen)
+        return places
+
+    return along([])
+
+
+def _where(tape: Tape, condition: Traced, yes: int, no: int) -> int:
+    return tape.call("where", condition, Traced(tape, yes), Traced(tape, no))._place

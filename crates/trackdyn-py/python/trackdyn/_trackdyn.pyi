@@ -27,6 +27,7 @@ __all__ = [
     "icr_map",
     "identify",
     "inspect",
+    "is_decided",
     "law_arguments",
     "motion_table",
     "odometry",
@@ -44,7 +45,7 @@ VERSION: Final[str]
 _Path = str | os.PathLike[str]
 _Progress = Callable[[str, int, int], object] | None
 _Gauge = Vehicle | float
-_Step = float | tuple[str, list[int]]
+_Step = float | tuple[str, list[int]] | tuple[list[float], list[list[float]], int]
 _Taped = tuple[list[_Step], list[int]]
 
 @final
@@ -244,6 +245,8 @@ class Figure:
     @property
     def reading(self) -> str: ...
     def data(self) -> dict[str, Any]: ...
+    @staticmethod
+    def restore(data: dict[str, Any]) -> Figure: ...
     def to_png(self) -> bytes: ...
     def to_svg(self) -> str: ...
 
@@ -257,7 +260,7 @@ def register_law(
     summary: str,
     acts: str,
     parameters: Sequence[Mapping[str, Any]],
-    function: Callable[[NDArray[np.float64], tuple[float, ...]], NDArray[np.float64]],
+    function: Callable[[NDArray[np.float64], tuple[float, ...]], tuple[NDArray[np.float64], int]],
     tape: _Taped | None,
     trace: Callable[[tuple[float, ...]], _Taped | None] | None,
 ) -> str: ...
@@ -305,6 +308,7 @@ def diagnose(
     keywords: Mapping[str, Any],
     progress: _Progress,
 ) -> Diagnosis: ...
+def is_decided(diagnosis: tuple[str, str]) -> bool: ...
 def plan(
     diagnosis: tuple[str, str],
     vehicle: Vehicle,

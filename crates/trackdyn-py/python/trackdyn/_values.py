@@ -41,19 +41,16 @@ def number(name: str, value: Any) -> float:
     raise refused(name, value, "a number")
 
 
+def is_number(value: Any) -> bool:
+    """Whether a value is a number."""
+    return isinstance(value, (int, float, np.integer, np.floating))
+
+
 def finite(name: str, value: Any) -> float:
     """A number that is finite."""
     found = number(name, value)
     if not np.isfinite(found):
         raise refused(name, value, "a finite number")
-    return found
-
-
-def duration(name: str, value: Any) -> float:
-    """A time of 0 s or more."""
-    found = finite(name, value)
-    if found < 0.0:
-        raise refused(name, value, "0 s or more")
     return found
 
 

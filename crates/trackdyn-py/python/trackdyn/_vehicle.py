@@ -116,6 +116,10 @@ class Vehicle(Document):
             The text.
         name : str
             What errors call it.
+
+        Returns
+        -------
+        Vehicle
         """
         name, text = _values.text("name", name), _values.text("text", text)
         return cls._of(_trackdyn.Vehicle.from_toml(name, text))
@@ -163,6 +167,10 @@ class Vehicle(Document):
             ``"id"`` or ``"id:parameter=value,..."``, or a law as :func:`law` makes it.
         **parameters : float
             Parameters of the effect by their keys, in the unit that the key ends in.
+
+        Returns
+        -------
+        Vehicle
         """
         if isinstance(effect, Law):
             return self._of(self._inner.with_effect(effect.with_values(**parameters)))
@@ -174,12 +182,32 @@ class Vehicle(Document):
         return self._of(self._inner.with_effect(effect))
 
     def with_cog(self, right: float, forward: float) -> Vehicle:
-        """The vehicle with another centre of gravity, m right and forward of the contact's centre."""
+        """The vehicle with another centre of gravity.
+
+        Parameters
+        ----------
+        right, forward : float
+            Its place, m right and forward of the centre of the contact area.
+
+        Returns
+        -------
+        Vehicle
+        """
         cog = _values.number("right", right), _values.number("forward", forward)
         return self._of(self._inner.with_cog(cog))
 
     def with_inertia(self, inertia: bool = True) -> Vehicle:
-        """The vehicle with its inertia in the model, or without."""
+        """The vehicle with its inertia in the model, or without.
+
+        Parameters
+        ----------
+        inertia : bool
+            Whether it has inertia.
+
+        Returns
+        -------
+        Vehicle
+        """
         return self._of(self._inner.with_inertia(_values.flag("inertia", inertia)))
 
     def with_values(self, values: Mapping[str, Any]) -> Vehicle:
@@ -190,6 +218,10 @@ class Vehicle(Document):
         values : mapping
             Values by their place in the file, such as ``{"mass_kg": 80.0, "friction.mu_x": 0.7,
             "effect.load-transfer.cog_height_m": 0.3}``.
+
+        Returns
+        -------
+        Vehicle
         """
         tables = self.to_dict()
         expected = "values by their place in the file, such as {'mass_kg': 80.0}"

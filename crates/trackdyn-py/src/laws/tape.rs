@@ -14,11 +14,15 @@ pub enum Step {
     Number(f64),
     /// A function and the places of its arguments: columns, parameters, then steps.
     Call(String, Vec<usize>),
+    /// Polynomials between ascending places, and the place of the argument. Coefficients of the
+    /// distance from the place below: a row for each power, the highest first.
+    Table(Vec<f64>, Vec<Vec<f64>>, usize),
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 enum Operation {
     Number(f64),
+    Table(Table, usize),
     Unary(fn(f64) -> f64, usize),
     Binary(Binary, [usize; 2]),
     Where([usize; 3]),
@@ -39,6 +43,30 @@ enum Binary {
 enum Value<'a> {
     One(f64),
     Rows(&'a [f64]),
+}
+
+/// Polynomials between ascending places.
+#[derive(Debug)]
+struct Table {
+    places: Vec<f64>,
+    coefficients: Vec<Vec<f64>>,
+}
+
+impl Table {
+    fn new(places: &[f64], coefficients: &[Vec<f64>]) -> Option<Self> {
+        let is_table = places.len() >= 2
+            && places.windows(2).all(|pair| pair[0] < pair[1])
+            && coefficients.iter().all(|row| row.len() + 1 == places.len());
+        is_table.then(|| Self { places: places.to_vec(), coefficients: coefficients.to_vec() })
+    }
+
+    /// Its value; beyond its ends, the first and the last polynomial go on.
+    fn at(&self, x: f64) -> f64 {
+        let below = self.places.partition_point(|place| *place <= x);
+        let piece = below.saturating_sub(1).min(self.places.len() - 2);
+        let distance = x - self.places[piece];
+        self.coefficients.iter().fold(0.0, |sum, row| sum * distance + row[piece])
+    }
 }
 
 /// A list of steps.
@@ -68,6 +96,11 @@ impl Tape {
             let (name, of) = match step {
                 Step::Number(value) => return Ok(Operation::Number(*value)),
                 Step::Call(name, of) => (name.as_str(), of),
+                Step::Table(places, coefficients, of) => {
+                    let table = Table::new(places, coefficients).filter(|_| *of < before + place);
+                    let table = table.map(|table| Operation::Table(table, *of));
+                    return table.ok_or_else(|| refused("a table"));
+                }
             };
             if of.iter().any(|one| *one >= before + place) {
                 return Err(refused(name));
@@ -96,7 +129,7 @@ impl Tape {
         for operation in &self.operations {
             match *operation {
                 Operation::Number(_) => {}
-                Operation::Unary(_, a) => mark(a),
+                Operation::Unary(_, a) | Operation::Table(_, a) => mark(a),
                 Operation::Binary(_, of) => of.into_iter().for_each(&mut mark),
                 Operation::Where(of) => of.into_iter().for_each(&mut mark),
             }
@@ -157,13 +190,8 @@ impl Operation {
     fn apply<'a>(&self, value: impl Fn(usize) -> Value<'a>, rows: &mut [f64]) -> Option<f64> {
         match *self {
             Self::Number(one) => Some(one),
-            Self::Unary(function, a) => match value(a) {
-                Value::One(a) => Some(function(a)),
-                Value::Rows(a) => {
-                    rows.iter_mut().zip(a).for_each(|(row, a)| *row = function(*a));
-                    None
-                }
-            },
+            Self::Unary(function, a) => each(function, value(a), rows),
+            Self::Table(ref table, a) => each(|x| table.at(x), value(a), rows),
             Self::Binary(function, [a, b]) => {
                 let (a, b) = (value(a), value(b));
                 match function {
@@ -190,6 +218,15 @@ impl Operation {
             }
         }
     }
+}
+
+#[inline]
+fn each(function: impl Fn(f64) -> f64, a: Value, rows: &mut [f64]) -> Option<f64> {
+    match a {
+        Value::One(a) => return Some(function(a)),
+        Value::Rows(a) => rows.iter_mut().zip(a).for_each(|(row, a)| *row = function(*a)),
+    }
+    None
 }
 
 #[inline]
@@ -259,6 +296,21 @@ fn unary(name: &str) -> Option<fn(f64) -> f64> {
         "trunc" => f64::trunc,
         "rint" => f64::round_ties_even,
         "logical_not" => |a| truth(a == 0.0),
+        "isfinite" => |a| truth(a.is_finite()),
+        "isnan" => |a| truth(a.is_nan()),
+        "isinf" => |a| truth(a.is_infinite()),
+        "signbit" => |a| truth(a.is_sign_negative()),
+        "erf" => libm::erf,
+        "erfc" => libm::erfc,
+        "gamma" => libm::tgamma,
+        "gammaln" => libm::lgamma,
+        "j0" => libm::j0,
+        "j1" => libm::j1,
+        "expit" => |a| 1.0 / (1.0 + (-a).exp()),
+        "log_expit" => |a| a.min(0.0) - (-a.abs()).exp().ln_1p(),
+        "logit" => |a| (a / (1.0 - a)).ln(),
+        "exp10" => |a| 10.0_f64.powf(a),
+        "ndtr" => |a| 0.5 * libm::erfc(-a * std::f64::consts::FRAC_1_SQRT_2),
         _ => return None,
     };
     Some(function)
@@ -284,6 +336,21 @@ fn binary(name: &str) -> Option<Binary> {
             if rest != 0.0 && (rest < 0.0) != (b < 0.0) { rest + b } else { rest }
         },
         "fmod" => |a, b| a % b,
+        "floor_divide" => |a, b| {
+            let rest = a % b;
+            let whole = (a - rest) / b;
+            let is_below = rest != 0.0 && (rest < 0.0) != (b < 0.0);
+            if is_below { whole - 1.0 } else { whole }.round()
+        },
+        "xlogy" => |a, b| if a == 0.0 && !b.is_nan() { 0.0 } else { a * b.ln() },
+        "xlog1py" => |a, b| if a == 0.0 && !b.is_nan() { 0.0 } else { a * b.ln_1p() },
+        "logaddexp" => |a, b| {
+            if a == b {
+                a + std::f64::consts::LN_2
+            } else {
+                a.max(b) + (-(a - b).abs()).exp().ln_1p()
+            }
+        },
         "heaviside" => |a, b| {
             if a > 0.0 {
                 1.0

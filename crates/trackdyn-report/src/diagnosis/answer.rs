@@ -6,8 +6,8 @@ use crate::ticks::number;
 use trackdyn_diagnose::Status;
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::hypothesis::Unknown;
-use trackdyn_diagnose::locate::Along;
 use trackdyn_diagnose::locate::cells::Cell;
+use trackdyn_diagnose::locate::{Along, Wave};
 use trackdyn_diagnose::proposal::Proposal;
 use trackdyn_diagnose::verdict::{Refusal, Verdict};
 use trackdyn_model::EffectId;
@@ -96,25 +96,30 @@ fn once(subject: &Subject, verdict: &Verdict) -> Option<String> {
 
 /// What the claims do not explain.
 fn left(subject: &Subject) -> String {
-    let after = &subject.diagnosis.evidence.after;
-    let names: Vec<&str> = after.broken().into_iter().map(|one| symmetry(one)[0]).collect();
-    let waves = after.waves.iter().map(|wave| match wave.along {
+    let left = &subject.diagnosis.answer.left_over;
+    let names: Vec<&str> = left.iter().map(|one| symmetry(*one)[0]).collect();
+    let part = format!(
+        "That is part of it, not all: what is left still breaks symmetries of driving ({}).",
+        names.join(", ")
+    );
+    std::iter::once(part).chain(waves(subject)).collect::<Vec<_>>().join(" ")
+}
+
+/// Waves that the corrected model leaves, a sentence each.
+pub(super) fn waves(subject: &Subject) -> Vec<String> {
+    let sentence = |wave: &Wave| match wave.along {
         Along::Ground { direction } => format!(
-            " The ground is wavy: the ICRs come and go every {} m in the direction of {} degrees.",
+            "The ground is wavy: the ICRs come and go every {} m in the direction of {} degrees.",
             number(wave.length, 2),
             number(direction.to_degrees(), 0)
         ),
         Along::Belts => format!(
-            " A track runs faster and slower every {} m of its way, as with a sprocket or an \
+            "A track runs faster and slower every {} m of its way, as with a sprocket or an \
              encoder that runs out of true, or a damaged belt.",
             number(wave.length, 2)
         ),
-    });
-    let waves: String = waves.collect();
-    format!(
-        "That is part of it, not all: what is left still breaks symmetries of driving ({}).{waves}",
-        names.join(", ")
-    )
+    };
+    subject.diagnosis.evidence.after.waves.iter().map(sentence).collect()
 }
 
 /// The law that is proposed for what no effect explains.

@@ -7,6 +7,7 @@ mod lacks;
 mod next;
 
 use super::Subject;
+use super::answer::waves;
 use costs::Cost;
 use lacks::Lack;
 use next::Step;
@@ -19,6 +20,8 @@ use trackdyn_diagnose::diagnosis::Kind;
 pub(super) struct First {
     verdict: String,
     lacks: Vec<Lack>,
+    /// Waves of the ground or of a belt, a sentence each.
+    waves: Vec<String>,
     sure: String,
     /// What held-out runs say against it; empty where they say nothing.
     warning: String,
@@ -39,6 +42,7 @@ impl First {
         Self {
             verdict: verdict(subject),
             lacks: lacks::of(subject),
+            waves: waves(subject),
             sure: sure(subject),
             warning: subject.diagnosis.contradiction().unwrap_or_default(),
             costs: costs::of(subject),

@@ -1,7 +1,7 @@
 //! Words and numbers of a diagnosis.
 
 use crate::ticks::number;
-use trackdyn_diagnose::proposal::words::decimals;
+use trackdyn_core::rounding::decimals;
 use trackdyn_diagnose::uncertainty::Interval;
 use trackdyn_model::EffectId;
 use trackdyn_model::effect::Symmetry;

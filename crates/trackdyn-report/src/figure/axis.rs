@@ -1,10 +1,10 @@
 //! Axes of a panel.
 
 use crate::ticks::{number, origin};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Where an axis has numbers.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ticks {
     /// At round numbers, as many as there is room for.
@@ -14,7 +14,7 @@ pub enum Ticks {
 }
 
 /// A quantity with its range.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Axis {
     /// What is shown along it.
     pub quantity: String,

@@ -2,10 +2,10 @@
 
 use super::{Marker, Shape, entry_colour};
 use crate::colour::{INK, Rgb};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A sample of how something is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Swatch {
     /// A line of this thickness, pixels.
@@ -34,7 +34,7 @@ impl Swatch {
 }
 
 /// Samples with their meaning.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Entry {
     /// What they mean.
     pub text: String,
@@ -43,7 +43,7 @@ pub struct Entry {
 }
 
 /// Entries in at most two lines; what has no room is counted.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Legend {
     /// Left end and middle row of the first line, pixels.
     pub at: [i32; 2],

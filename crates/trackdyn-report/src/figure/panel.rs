@@ -3,13 +3,13 @@
 use super::{Area, Axis, ColourBar, Series};
 use crate::colour::{GREY, INK, Rgb};
 use crate::text::{Horizontal, Style, TICK_SIZE, Vertical};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Part of the size of the main points by which further ones may extend the shown range.
 const MAX_EXTENSION: f64 = 0.6;
 
 /// A text at a point of a panel.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Label {
     /// What is written.
     pub text: String,
@@ -59,7 +59,7 @@ impl Label {
 }
 
 /// A rectangle of the sheet with axes, series and labels.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Panel {
     /// The plot inside the axes.
     pub place: Area,

@@ -2,10 +2,10 @@
 
 use super::Area;
 use crate::colour::{ColourMap, Rgb};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Colours for a range of values.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Scale {
     /// Colours of the range.
     pub colours: ColourMap,
@@ -28,7 +28,7 @@ impl Scale {
 }
 
 /// A bar that shows a scale.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct ColourBar {
     /// Where it stands.
     pub place: Area,
@@ -37,7 +37,7 @@ pub struct ColourBar {
 }
 
 /// Colours of the members of a series.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Paint {
     /// All alike.

@@ -2,7 +2,7 @@
 
 use super::{Paint, Scale};
 use crate::colour::{INK, Rgb};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Colours that every kind of colour vision tells apart (Okabe and Ito, 2008).
 const ENTRY_COLOURS: [Rgb; 6] =
@@ -14,7 +14,7 @@ pub fn entry_colour(entry: usize) -> Rgb {
 }
 
 /// Shape of a marker; lengths are pixels.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
     /// A disc of this radius.
@@ -34,7 +34,7 @@ pub enum Shape {
 }
 
 /// A marker: form tells entries apart where colour does not.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Marker {
     /// Its form.
     pub shape: Shape,
@@ -66,7 +66,7 @@ impl Marker {
 }
 
 /// A line through points.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Line {
     /// The points.
     pub points: Vec<[f64; 2]>,
@@ -77,7 +77,7 @@ pub struct Line {
 }
 
 /// A straight line across a whole panel.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Rule {
     /// Value on the axis that it crosses.
     pub at: f64,
@@ -109,7 +109,7 @@ impl Rule {
 }
 
 /// An arrow from a point.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Arrow {
     /// Its beginning.
     pub from: [f64; 2],
@@ -122,7 +122,7 @@ pub struct Arrow {
 }
 
 /// Points with one form.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Points {
     /// The points.
     pub points: Vec<[f64; 2]>,
@@ -142,7 +142,7 @@ impl Points {
 }
 
 /// Estimates with their intervals.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Estimates {
     /// The estimates.
     pub points: Vec<[f64; 2]>,
@@ -185,7 +185,7 @@ impl Estimates {
 }
 
 /// Rectangles: bars, bands, and cells of a matrix.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Boxes {
     /// Lower left and upper right corners.
     pub boxes: Vec<[[f64; 2]; 2]>,
@@ -213,7 +213,7 @@ impl Boxes {
 }
 
 /// A pattern of diagonal lines.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 pub struct Hatch {
     /// Colour between the lines.
     pub paper: Rgb,
@@ -238,7 +238,7 @@ impl Hatch {
 }
 
 /// A cell of a heat map.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Cell {
     /// It has a value.
@@ -248,7 +248,7 @@ pub enum Cell {
 }
 
 /// A heat map that fills its panel.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Cells {
     /// Cells along each axis.
     pub count: usize,
@@ -259,7 +259,7 @@ pub struct Cells {
 }
 
 /// Many points, each with a value. Those of small values lie above the others.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Cloud {
     /// The points.
     pub points: Vec<[f64; 2]>,
@@ -270,7 +270,7 @@ pub struct Cloud {
 }
 
 /// What a series consists of.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Sign {
     /// A line through points.
@@ -292,7 +292,7 @@ pub enum Sign {
 }
 
 /// A part of what a panel shows.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Series {
     /// What it is of; empty where it speaks for itself.
     pub name: String,
@@ -300,7 +300,7 @@ pub struct Series {
     pub sign: Sign,
     /// Stretches of the log that each member stands for, s on the axis of time of the figure
     /// `time`; empty where members stand for none.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stretches: Vec<Vec<[f64; 2]>>,
 }
 

@@ -2,6 +2,7 @@
 
 use super::Prepared;
 use crate::{Error, Observer, Progress, Provenance};
+use trackdyn_diagnose::Resampling;
 use trackdyn_diagnose::diagnosis::{Examination, STAGES, examine};
 use trackdyn_model::kinematics::Source;
 
@@ -25,8 +26,8 @@ impl Prepared {
 
     /// What was seen, as a source of a file.
     pub(crate) fn seen(&self, provenance: &Provenance) -> Source {
-        let seed = Some(self.options.resampling.seed);
-        Source { seed, ..self.source(provenance) }
+        let Resampling { draws, seed } = self.options.resampling;
+        Source { draws: Some(draws), seed: Some(seed), ..self.source(provenance) }
     }
 
     /// Name of what was diagnosed.

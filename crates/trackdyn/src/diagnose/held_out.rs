@@ -10,7 +10,7 @@ pub enum HeldOut {
     /// [Every fourth](every_fourth) where there are enough, of a table every fourth point; as the
     /// group `held_out` of [`MethodSettings`] says.
     #[default]
-    EveryFourth,
+    ByRule,
     /// None: the result is judged on what it was fitted to.
     None,
     /// These.
@@ -35,7 +35,7 @@ impl HeldOut {
     ) -> Result<Vec<usize>, Error> {
         let count = motion.runs().len();
         let held_out = match self {
-            Self::EveryFourth => method.held_out.of(count),
+            Self::ByRule => method.held_out.of(count),
             Self::None => Vec::new(),
             Self::Runs(list) => motion
                 .indices_of(list)
@@ -50,7 +50,7 @@ impl HeldOut {
     /// Indices of so many points of a table.
     pub(super) fn of_points(&self, count: usize, method: &MethodSettings) -> Vec<usize> {
         match self {
-            Self::EveryFourth => method.held_out.of(count),
+            Self::ByRule => method.held_out.of(count),
             Self::None | Self::Runs(_) => Vec::new(),
         }
     }
@@ -59,7 +59,7 @@ impl HeldOut {
     pub(super) fn refuse_runs(&self) -> Result<(), Error> {
         match self {
             Self::Runs(list) => Err(Error::NoRunsToHoldOut { runs: list.clone() }),
-            Self::EveryFourth | Self::None => Ok(()),
+            Self::ByRule | Self::None => Ok(()),
         }
     }
 }

@@ -1,13 +1,14 @@
-//! A diagnosis as layers of viewers: what was observed, and what the vehicle file predicts as it is
-//! and as corrected.
+//! A diagnosis as layers of viewers: what was observed, what is claimed, and what the vehicle file as
+//! it is, the corrected one and the ideal drive predict.
 
+mod claims;
 mod mismatch;
 
 use super::Diagnosis;
 use crate::viewer::{self, Actor, Moment, Timeline, plot};
 use crate::{Error, Provenance};
 use std::ops::Range;
-use trackdyn_core::{PerSide, Pose};
+use trackdyn_core::{PerSide, Pose, Twist};
 use trackdyn_diagnose::evidence::Sample;
 use trackdyn_diagnose::{Evidence, replay};
 use trackdyn_export::viewer::{JointLayer, Layers, MarkerLayer, PathLayer, Tab, Trace};
@@ -53,7 +54,7 @@ pub(super) fn of(diagnosis: &Diagnosis, provenance: &Provenance) -> Result<Layer
     let evidence = &prepared.evidence;
     let drive = Drive { evidence, log };
     let corrected = diagnosis.corrected.file();
-    let drivers = drive.drivers(prepared.vehicle.file(), corrected);
+    let drivers = drive.drivers(prepared.vehicle.file(), corrected, prepared.vehicle.gauge());
     let pieces = drive.pieces();
     let tracks = drive.tracks();
     let gauge = prepared.vehicle.gauge();
@@ -75,7 +76,7 @@ pub(super) fn of(diagnosis: &Diagnosis, provenance: &Provenance) -> Result<Layer
         fixed_frame,
         paths: drivers.iter().map(|driver| drive.path(driver)).collect(),
         markers: drivers.iter().map(|driver| drive.markers(driver, &pieces, gauge)).collect(),
-        texts: vec![drive.regimes(diagnosis)],
+        texts: vec![drive.regimes(diagnosis), drive.claims(diagnosis)],
         tabs: vec![
             drive.motion(&drivers, &tracks),
             drive.residuals(diagnosis),
@@ -83,6 +84,16 @@ pub(super) fn of(diagnosis: &Diagnosis, provenance: &Provenance) -> Result<Layer
         ],
         joints: vec![tracks],
     })
+}
+
+/// The motion over a sample of the ideal drive, whose tracks do not slip.
+///
+/// # Law
+/// v = (V_l + V_r)/2, ω = (V_r − V_l)/L.
+fn ideal(sample: &Sample, gauge: f64) -> Pose {
+    let PerSide { left, right } = sample.speeds;
+    let twist = Twist { v_x: (left + right) / 2.0, v_y: 0.0, w: (right - left) / gauge };
+    Pose::exp(&twist, sample.duration)
 }
 
 /// The evidence of all runs, and their log.
@@ -102,10 +113,12 @@ impl Drive<'_> {
         self.stamp(sample.run, sample.start + sample.duration / 2.0)
     }
 
-    /// The robot as observed, and as filed and as corrected where these have a motion.
-    fn drivers(&self, filed: &VehicleFile, corrected: &VehicleFile) -> Vec<Driver> {
+    /// The robot as observed; as filed and as corrected, where these have a motion; and the ideal
+    /// drive with this gauge, m.
+    fn drivers(&self, filed: &VehicleFile, corrected: &VehicleFile, gauge: f64) -> Vec<Driver> {
         let [_, base_frame] = &self.log.frames;
-        let models = [("as filed", entry_colour(0)), ("corrected", entry_colour(1))];
+        let names = ["as filed", "corrected", "ideal"];
+        let models = names.into_iter().enumerate().map(|(place, name)| (name, entry_colour(place)));
         let (observed, models) = Actor::all(models);
         let observed = Driver {
             actor: observed,
@@ -113,8 +126,13 @@ impl Drive<'_> {
             motions: self.evidence.samples().iter().map(|of| replay::pose(&of.motion)).collect(),
             is_observed: true,
         };
-        let models = models.into_iter().zip([filed, corrected]).filter_map(|(actor, file)| {
-            let motions = replay::motions(self.evidence, file)?;
+        let motions = [
+            replay::motions(self.evidence, filed),
+            replay::motions(self.evidence, corrected),
+            Some(self.evidence.samples().iter().map(|of| ideal(of, gauge)).collect()),
+        ];
+        let models = models.into_iter().zip(motions).filter_map(|(actor, motions)| {
+            let motions: Vec<Pose> = motions?;
             let frame = actor.frame().to_owned();
             Some(Driver { frame, motions, is_observed: false, actor })
         });

@@ -3,7 +3,7 @@
 use super::{Prepared, SimulateSettings, Simulation};
 use crate::progress::Counter;
 use crate::{Error, Observer, Vehicle};
-use rayon::prelude::*;
+use trackdyn_model::custom::together;
 
 /// Simulates several robots, each with its seed in place of that of the settings, in parallel,
 /// observed: a part is a robot. The results are in the order of the robots; one that cannot be
@@ -26,7 +26,8 @@ pub fn simulate_all(
         let is_wanted = counter.advance("robots", 1).is_continue();
         is_wanted.then_some(simulated).ok_or(Error::Cancelled)
     };
-    robots.par_iter().map(one).collect()
+    let share_calls = robots.iter().any(|(vehicle, _)| vehicle.effects().share_calls());
+    together(robots, share_calls, one).into_iter().collect()
 }
 
 #[cfg(test)]

@@ -3,12 +3,12 @@
 use crate::wrapped::wrapped;
 use std::fmt::Write;
 use trackdyn::Diagnosis;
+use trackdyn::crates::core::rounding::decimals;
 use trackdyn::crates::diagnose::diagnosis::{Kind, Missing};
 use trackdyn::crates::diagnose::document::{ComparedTable, DriftTable, separate_by};
 use trackdyn::crates::diagnose::mismatch::words;
 use trackdyn::crates::diagnose::noise;
 use trackdyn::crates::diagnose::proposal::Proposal;
-use trackdyn::crates::diagnose::proposal::words::decimals;
 use trackdyn::crates::diagnose::uncertainty::{Interval, Level};
 use trackdyn::crates::diagnose::verdict::Refusal;
 use trackdyn::crates::diagnose::{Diagnosis as Found, Status};
@@ -67,8 +67,8 @@ pub fn text(diagnosis: &Diagnosis) -> String {
         text += &wrapped("refused  ", &format!("{id}: {why}"));
     }
     if diagnosis.answer.status == Status::Unexplained {
-        let [_, most] = diagnosis.evidence.after.max_p;
-        let left = diagnosis.evidence.after.tests.iter().filter(|one| one.test.p < most);
+        let is_left = |symmetry: Symmetry| diagnosis.answer.left_over.contains(&symmetry);
+        let left = diagnosis.evidence.after.tests.iter().filter(|one| is_left(one.symmetry));
         let left: Vec<String> = left
             .map(|one| {
                 let test = &one.test;

@@ -1,5 +1,7 @@
 //! `trackdyn trial run`: a process per case, which sees nothing of the trial.
 
+mod dask;
+
 use super::key_file;
 use crate::commands::Outcome;
 use crate::exit::Exit;
@@ -7,7 +9,7 @@ use crate::interrupt::before_the_end;
 use crate::progress::Progress;
 use crate::stderr::{note, say};
 use crate::stdout::show;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -36,10 +38,34 @@ pub struct Options {
     /// Run cases again whose process failed
     #[arg(long)]
     retry: bool,
+    /// Who runs them: this machine, one after the other; or workers of Dask, by the Python package
+    #[arg(long, value_name = "local|dask", default_value = "local", hide_possible_values = true)]
+    executor: Executor,
+    /// Scheduler of Dask whose workers run them [default: workers on this machine]
+    #[arg(long, value_name = "ADDRESS")]
+    scheduler: Option<String>,
+    /// Workers of Dask on this machine [default: one a processor]
+    #[arg(long, value_name = "N", conflicts_with = "scheduler")]
+    workers: Option<usize>,
+}
+
+/// Who runs cases.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Executor {
+    /// This machine, one after the other.
+    Local,
+    /// Workers of Dask.
+    Dask,
 }
 
 /// Diagnoses the cases that have not been.
 pub fn run(options: &Options) -> Outcome {
+    if options.executor == Executor::Dask {
+        return dask::hand_over(options);
+    }
+    if options.scheduler.is_some() || options.workers.is_some() {
+        return Err("--scheduler, --workers: expected with --executor dask".into());
+    }
     let (entry, program) = (entry(options)?, program(options)?);
     let shard = options.shard.unwrap_or_default();
     let sitting = Sitting::take_up(&options.trial, entry, shard, options.retry)?;

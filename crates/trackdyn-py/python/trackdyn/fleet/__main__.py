@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 from typing import Any
 
@@ -35,7 +36,7 @@ def main(arguments: list[str] | None = None) -> int:
             executor=executor_of(_PROGRAM, given.scheduler, given.workers),
             workers=given.workers,
             timeout=given.timeout,
-            memory=None if given.memory is None else given.memory * 1e9,
+            memory=_bytes(given.memory),
             retry=given.retry,
             progress=progress_of(_PROGRAM, "logs"),
             **reading_of(given),
@@ -43,6 +44,13 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"{outcome.path}: {outcome}")
 
     return ended(_PROGRAM, f"{given.out} has the rows that were done", {"logs"}, work)
+
+
+def _bytes(memory: float | None) -> float | None:
+    """Memory in bytes of GB."""
+    if memory is not None and not 0.0 < memory < math.inf:
+        raise SettingError(f"memory {memory:g}: expected GB above zero", "memory")
+    return None if memory is None else memory * 1e9
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -5,6 +5,7 @@ It shares nothing with its parent but two pipes, so a log that crashes or hangs 
 
 from __future__ import annotations
 
+import base64
 import json
 import os
 import queue
@@ -21,6 +22,7 @@ import numpy as np
 
 from .._diagnosis import diagnose
 from .._kinematics import IcrKinematics
+from .._laws import received
 from .._reading import read_recording
 from .._recording import Recording
 from .._trackdyn import VERSION as __version__
@@ -30,14 +32,26 @@ from ._files import content, look
 #: Stamps before 2000 or after 2100 are not dates: clocks that count from the start of a robot.
 _DATES_NS = (946_684_800 * 10**9, 4_102_444_800 * 10**9)
 
+#: Address space beyond what is there that a process needs to begin with a log, bytes.
+_ROOM = 128 * 2**20
+
 _Tell = Callable[[dict[str, Any]], None]
 
 
-def serve() -> None:
-    """Answer jobs from the standard input until it ends; then end at once."""
+def serve(memory: int | None = None) -> None:
+    """Answer jobs from the standard input until it ends; then end at once.
+
+    With `memory`, the process has so many bytes of address space. Where it does not start in them,
+    it says how many it needs.
+    """
     answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
     # whatever else is printed is no answer
     os.dup2(2, 1)
+    if memory is not None and memory < _needed_memory():
+        answers.write(json.dumps({"needs": _needed_memory()}) + "\n")
+        answers.flush()
+        return
+    limit_memory(memory)
     jobs: queue.SimpleQueue[str] = queue.SimpleQueue()
 
     def listen() -> None:
@@ -61,7 +75,18 @@ def limit_memory(size: int | None) -> None:
     if size is not None:
         import resource
 
+        _, most = resource.getrlimit(resource.RLIMIT_AS)
+        size = min(size, sys.maxsize if most == resource.RLIM_INFINITY else most)
         resource.setrlimit(resource.RLIMIT_AS, (size, size))
+
+
+def _needed_memory() -> int:
+    """Address space that this process has before it reads a log, bytes, with room to begin."""
+    try:
+        pages = int(Path("/proc/self/statm").read_text().split()[0])
+    except (OSError, ValueError):  # a system that does not tell
+        return 0
+    return pages * os.sysconf("SC_PAGE_SIZE") + _ROOM
 
 
 def answer(job: dict[str, Any], tell: _Tell) -> None:
@@ -96,6 +121,8 @@ def answer(job: dict[str, Any], tell: _Tell) -> None:
 
 def _fill(job: dict[str, Any], said: dict[str, Any], stage: Callable[[str], Any]) -> None:
     row = said["row"]
+    for sent in job["laws"]:
+        received(base64.b64decode(sent))
     vehicle = Vehicle.from_toml(job["vehicle"], job["vehicle_name"])
     path = Path(job["path"])
     with stage("fingerprint"):

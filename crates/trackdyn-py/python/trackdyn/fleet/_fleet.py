@@ -13,7 +13,7 @@ from .._trackdyn import VERSION as __version__
 from .._vehicle import Vehicle
 from . import _table
 from ._guard import make
-from ._jobs import Options, job_of
+from ._jobs import Options, carried_laws, fingerprint_of, job_of
 from ._journal import Journal
 from ._known import Known
 from ._logs import Log
@@ -29,6 +29,8 @@ class Fleet:
     ) -> None:
         self._logs = {log.name: log for log in logs}
         self._vehicles = vehicles
+        self._fingerprints = {robot: fingerprint_of(one) for robot, one in vehicles.items()}
+        self._laws = {robot: carried_laws(one, options) for robot, one in vehicles.items()}
         self._options = options
         self._outcome = outcome
 
@@ -41,7 +43,7 @@ class Fleet:
             if row is None:
                 todo[name] = None
                 continue
-            vehicle = self._vehicles[log.robot].fingerprint
+            vehicle = self._fingerprints[log.robot]
             reason = row.differs(vehicle, options, __version__, retry)
             if reason is not None:
                 self._outcome.again[reason] += 1
@@ -69,10 +71,7 @@ class Fleet:
             Where the executor broke.
         """
         outcome = self._outcome
-        jobs = (
-            job_of(self._logs[name], self._vehicles[self._logs[name].robot], self._options, unless)
-            for name, unless in todo.items()
-        )
+        jobs = (self._job(self._logs[name], unless) for name, unless in todo.items())
         with closing(results(executor, jobs, make)) as done:
             for job, future in done:
                 done_now = _result(job["log"], future)
@@ -89,6 +88,10 @@ class Fleet:
                     failed = sum(outcome.made.values()) - outcome.made["ok"]
                     tell(f"{failed} not ok", outcome.done, outcome.logs)
 
+    def _job(self, log: Log, unless: str | None) -> dict[str, Any]:
+        vehicle, laws = self._vehicles[log.robot], self._laws[log.robot]
+        return job_of(log, vehicle, laws, self._options, unless)
+
     def merge(self, journal: Journal) -> None:
         """Write the table and the file beside it, with the rows of the journal."""
         out = self._outcome.path
@@ -103,13 +106,14 @@ class Fleet:
 
     def _named(self, name: str, row: dict[str, Any]) -> dict[str, Any]:
         """A row with what its worker is not asked for."""
-        vehicle = self._vehicles[self._logs[name].robot]
+        robot = self._logs[name].robot
         if row.get("error_kind") == "SettingError":
             raise SettingError(row["error"], row["error"].split(" ", 1)[0])
         if row.get("version", __version__) != __version__:
             found = f"a worker has trackdyn {row['version']}, and this program {__version__}"
             raise ResultError(f"{found}: expected one version")
-        made_from = {"vehicle": vehicle.fingerprint, "gauge_m": vehicle.gauge}
+        gauge = self._vehicles[robot].gauge
+        made_from = {"vehicle": self._fingerprints[robot], "gauge_m": gauge}
         made_from |= {"options": self._options.fingerprint, "version": __version__}
         return self._renamed({**row, **made_from, "log": name})
 

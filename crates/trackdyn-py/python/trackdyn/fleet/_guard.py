@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import queue
 import signal
@@ -31,8 +32,7 @@ _CODE = """
 import sys
 sys.path[:] = {path!r}
 from trackdyn.fleet import _child
-_child.limit_memory({memory})
-_child.serve()
+_child.serve({memory})
 """
 
 _here = threading.local()
@@ -161,10 +161,19 @@ class _Process:
                 said["row"].update(status="crashed", error=f"{said['row']['stage']}: {text}")
                 return said
             said = json.loads(line)
+            if "needs" in said:
+                return {"row": self._too_little(said["needs"])}
             if not self._is_started:
                 self._is_started = True
                 deadline = time.monotonic() + job["timeout"]
         return said
+
+    def _too_little(self, needs: int) -> dict[str, Any]:
+        """The row that says that no log can be made in this memory."""
+        self.end()
+        gb = math.ceil(needs / 1e7) / 100.0
+        error = f"memory {self.memory}: expected {needs} bytes ({gb:g} GB) or more, to begin with"
+        return {"status": "error", "error_kind": "SettingError", "error": error}
 
     def _last_words(self) -> str:
         """How it ended, and the first line that it wrote of this log."""

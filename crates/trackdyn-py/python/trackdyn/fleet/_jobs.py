@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import base64
 import hashlib
 import json
 import os
+import pickle
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Union
@@ -14,6 +16,7 @@ from .._arguments import plain, vehicle_of
 from .._diagnosis import keywords_of
 from .._errors import DocumentError, RecordingError, SettingError
 from .._kinematics import IcrKinematics
+from .._laws import Law, carried, of_ids, several_of
 from .._reading import reading as reading_of
 from .._vehicle import Vehicle, VehicleLike
 from ._logs import Log
@@ -27,7 +30,7 @@ DiagnoseLike = Union[bool, Mapping[str, Any]]
 #: Options of reading that are paths: workers may run elsewhere.
 _PATHS = ("tracks", "msg_dir")
 
-_DIAGNOSE = ("settings", "held_out", "draws", "seed", "gyroscope")
+_DIAGNOSE = ("settings", "held_out", "draws", "seed", "gyroscope", "tau", "laws")
 _NOT_IDENTIFY = ("vehicle", "alphas", "progress")
 
 
@@ -40,11 +43,15 @@ class Options:
     diagnose: dict[str, Any] | None
     timeout: float
     memory: int | None
+    #: Suspects beside the catalogue.
+    laws: tuple[Law, ...] = ()
 
     @property
     def fingerprint(self) -> str:
         """Fingerprint of what counts for rows."""
-        counts = [self.reading, self.identify, self.diagnose]
+        counts: list[Any] = [self.reading, self.identify, self.diagnose]
+        if self.laws:
+            counts.append([law.fingerprint for law in self.laws])
         text = json.dumps(counts, sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
@@ -65,13 +72,13 @@ def options_of(
     DocumentError
         For settings of the diagnosis that are not.
     """
-    if not _values.number("timeout", timeout) > 0.0:
+    if not _values.finite("timeout", timeout) > 0.0:
         raise SettingError(f"timeout {timeout}: expected seconds above zero", "timeout")
-    if memory is not None and not _values.number("memory", memory) > 0.0:
+    if memory is not None and not _values.finite("memory", memory) > 0.0:
         raise SettingError(f"memory {memory}: expected bytes above zero", "memory")
     if memory is not None and os.name == "nt":
         raise SettingError(f"memory {memory}: Windows bounds no process: expected none", "memory")
-    read = reading_of(**reading_options)
+    read = reading_of(reading_options)
     try:
         _trackdyn.Recording.open(os.devnull + ".no-recording", read)
     # all but the options is well
@@ -81,6 +88,7 @@ def options_of(
         reading={key: _carried(value) for key, value in read.items() if value not in (None, [])},
         identify=_identify({} if identify is None else identify),
         diagnose=_diagnose(diagnose),
+        laws=_laws(diagnose),
         timeout=float(timeout),
         memory=None if memory is None else int(memory),
     )
@@ -120,7 +128,35 @@ def _diagnose(diagnose: DiagnoseLike) -> dict[str, Any] | None:
         pass
     if full["settings"] is not None:
         keywords["settings"] = _trackdyn.from_toml(full["settings"][1])
+    if "laws" in keywords:
+        keywords["laws"] = full["laws"]
     return {name: plain(value) for name, value in sorted(keywords.items())}
+
+
+def _laws(diagnose: DiagnoseLike) -> tuple[Law, ...]:
+    """Laws among the keywords of a diagnosis."""
+    return tuple(several_of(diagnose.get("laws"))) if isinstance(diagnose, Mapping) else ()
+
+
+def fingerprint_of(vehicle: Vehicle) -> str:
+    """Fingerprint of a vehicle with the code of its laws."""
+    laws = of_ids(vehicle._inner.laws)
+    return "+".join([vehicle.fingerprint, *(law.fingerprint for law in laws)])
+
+
+def carried_laws(vehicle: Vehicle, options: Options) -> list[str]:
+    """The laws that a vehicle and its diagnosis need, as texts that a job can hold.
+
+    Raises
+    ------
+    SettingError
+        For a law that cannot be sent to another process.
+    """
+    laws = {law.id: law for law in (*of_ids(vehicle._inner.laws), *options.laws)}
+    try:
+        return [base64.b64encode(carried(law)).decode() for law in laws.values()]
+    except pickle.PicklingError as error:
+        raise SettingError(f"diagnose: {error}", "diagnose") from None
 
 
 def vehicles_of(vehicle: FleetVehicle, robots: Iterable[str]) -> dict[str, Vehicle]:
@@ -138,7 +174,9 @@ def vehicles_of(vehicle: FleetVehicle, robots: Iterable[str]) -> dict[str, Vehic
     return {robot: same for robot in robots}
 
 
-def job_of(log: Log, vehicle: Vehicle, options: Options, unless: str | None) -> dict[str, Any]:
+def job_of(
+    log: Log, vehicle: Vehicle, laws: list[str], options: Options, unless: str | None
+) -> dict[str, Any]:
     """What a worker is told; `unless` is the SHA-256 of the log whose row is there already."""
     reading = dict(options.reading)
     for key in _PATHS:
@@ -149,6 +187,7 @@ def job_of(log: Log, vehicle: Vehicle, options: Options, unless: str | None) -> 
         "path": os.path.abspath(log.name),
         "vehicle": vehicle.to_toml(),
         "vehicle_name": vehicle.name,
+        "laws": laws,
         "reading": reading,
         "identify": options.identify,
         "diagnose": options.diagnose,

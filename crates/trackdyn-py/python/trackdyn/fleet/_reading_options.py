@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import inspect
 import math
 from typing import Any
 
-from .._reading import reading
+from .._reading import ReadingOptions
 
 #: Options in degrees, where keywords are in radians.
 _DEGREES = "mount_yaw"
@@ -23,8 +22,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add an option for each keyword of :func:`trackdyn.read_recording`."""
     title = "how logs are read, as by the program trackdyn (trackdyn diagnose --help says more)"
     add = parser.add_argument_group(title).add_argument
-    for keyword, parameter in inspect.signature(reading).parameters.items():
-        kind = str(parameter.annotation)
+    for keyword, annotation in ReadingOptions.__annotations__.items():
+        kind = str(annotation)
         if "Sequence" in kind:
             # argparse takes a value that begins with a dash for an option
             sign = f"repeatable; one that runs backwards: {option_of(keyword)}=-NAME"
@@ -39,7 +38,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def reading_of(given: argparse.Namespace) -> dict[str, Any]:
     """The keywords that were given."""
-    keywords = inspect.signature(reading).parameters
+    keywords = ReadingOptions.__annotations__
     found = {one: getattr(given, one) for one in keywords if getattr(given, one) is not None}
     if _DEGREES in found:
         found[_DEGREES] = math.radians(found[_DEGREES])

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .. import _values
 from .._arguments import Progress, told
@@ -19,6 +19,11 @@ from ._journal import Journal
 from ._known import known_rows
 from ._logs import RobotLike, TimeLike, find, name_all
 from ._outcome import Outcome
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from .._reading import ReadingOptions
 
 
 def run(
@@ -36,7 +41,7 @@ def run(
     memory: float | None = None,
     retry: bool = False,
     progress: bool | Progress | None = None,
-    **options: Any,
+    **options: Unpack[ReadingOptions],
 ) -> Outcome:
     """Identify and diagnose every log of a fleet: one row a log, errors too.
 
@@ -59,8 +64,8 @@ def run(
         a datetime (of no zone: UTC) or to Unix seconds. Default: that group in ISO 8601, else the
         first stamp of the log where it is a date.
     diagnose : bool or mapping
-        Whether to diagnose, or keywords for :func:`trackdyn.diagnose`. It takes by far most of the
-        time; without it, there are ICRs and no claims.
+        Whether to diagnose, or keywords for :func:`trackdyn.diagnose`, such as ``{"laws": law}``.
+        It takes by far most of the time; without it, there are ICRs and no claims.
     identify : mapping, optional
         Keywords for :class:`trackdyn.IcrKinematics`, such as ``{"gyroscope": True}``.
     executor : concurrent.futures.Executor, optional
@@ -73,8 +78,8 @@ def run(
     timeout : float
         Time that a log may take, s. One that takes longer has a row that says so.
     memory : float, optional
-        Address space that a log may take, bytes; one that needs more has a row that says so.
-        Default: not bounded.
+        Address space that a log may take, bytes; one that needs more has a row that says so. Less
+        than a process has before it reads a log is refused. Default: not bounded.
     retry : bool
         Make rows again that are not "ok".
     progress : bool or callable

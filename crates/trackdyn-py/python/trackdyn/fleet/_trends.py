@@ -131,6 +131,11 @@ class Trends:
         ----------
         figure : matplotlib figure, optional
             Default: a new one.
+
+        Returns
+        -------
+        matplotlib figure
+            The one that was drawn on.
         """
         from ._drawing import draw
 

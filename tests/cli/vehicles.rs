@@ -84,7 +84,10 @@ fn one_of_vehicle_and_gauge_is_taken() {
     for command in ["identify", "odometry", "inspect"] {
         for (given, part) in [
             ("--vehicle auriga-alpha --gauge 0.42", "cannot be used with"),
-            ("--gauge -0.42", "a number above zero"),
+            (
+                "--gauge -0.42",
+                "--gauge -0.42: expected the distance between the track centre-lines",
+            ),
             ("--gauge 555", "--gauge 555: expected the distance between the track centre-lines"),
         ] {
             let run = place.run(&format!("{command} drive {given}"));

@@ -36,6 +36,6 @@ def my_snow(at, drag):
 
 @td.law("my-slow-turn", parameters={"strength": td.Parameter("1", 1.0, low=0.0, high=10.0)})
 def my_slow_turn(at, strength):
-    """The same, called in the interpreter, for nobody knows what an iterator does."""
+    """`my-turn` called in the interpreter, for nobody knows what an iterator does."""
     factor = strength * (at.load_left + at.load_right) / G * np.fromiter(at.yaw_rate, float)
     return factor * at.v_lateral, -factor * at.v_forward

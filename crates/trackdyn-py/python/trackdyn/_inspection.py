@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from . import _trackdyn, _values
 from ._arguments import RunsLike, gauge_of, parameters_of, runs_of, time_of
 from ._figure import Figure
 from ._parameters import Parameters
-from ._reading import ReadingOptions, reading
+from ._reading import ReadingOptions, Unpack, reading
 from ._vehicle import VehicleLike
-
-if TYPE_CHECKING:
-    from typing_extensions import Unpack
 
 
 class Inspection:

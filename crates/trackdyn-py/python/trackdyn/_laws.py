@@ -296,16 +296,22 @@ class Law:
         """What the law adds, and the columns that the function read, a bit each."""
         seen = Seen(self.acts, columns)
         adds = self._adds(seen, values, self.function)
-        count = columns.shape[1]
-        rows = np.empty((len(adds), count))
-        for row, result in zip(rows, adds):
-            is_row = isinstance(result, np.ndarray) and result.dtype == float
-            array = result if is_row else _values.floats(result)
-            if array is None or array.shape not in ((), (1,), (count,)):
-                found = f"a {type(result).__name__}" if array is None else f"shape {array.shape}"
-                raise self._refused(found, f"numbers of shape ({count},), as in what it sees")
-            row[:] = array
+        shape = columns.shape[1:]
+        rows = np.empty((len(adds), *shape))
+        for place, result in enumerate(adds):
+            kind = type(result)
+            # what nearly all functions return, without further questions
+            is_row = kind is np.ndarray and result.shape == shape and result.dtype.char == "d"
+            rows[place] = result if is_row or kind is float else self._row(result, shape)
         return rows, seen._read
+
+    def _row(self, result: Any, shape: tuple[int, ...]) -> NDArray[np.float64]:
+        """A result as numbers, one for each state or one for all."""
+        array = _values.floats(result)
+        if array is None or array.shape not in ((), (1,), shape):
+            found = f"a {type(result).__name__}" if array is None else f"shape {array.shape}"
+            raise self._refused(found, f"numbers of shape {shape}, as in what it sees")
+        return array
 
     def _refused(self, found: str, expected: str) -> EffectError:
         names = ", ".join(self.parameters)

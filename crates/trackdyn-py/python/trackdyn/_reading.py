@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypedDict
 
@@ -12,7 +13,12 @@ from ._errors import SettingError
 from ._recording import Recording
 
 if TYPE_CHECKING:
-    from typing_extensions import Unpack
+    from typing_extensions import Unpack as Unpack
+elif sys.version_info >= (3, 11):
+    from typing import Unpack
+else:
+    # what runs needs a name alone
+    from typing import Union as Unpack
 
 
 class ReadingOptions(TypedDict, total=False):

@@ -1,5 +1,5 @@
-//! A diagnosis as layers of viewers: what was observed, what is claimed, and what the vehicle file as
-//! it is, the corrected one and the ideal drive predict.
+//! A diagnosis as layers of viewers: what was observed, what is claimed, and what the ideal drive
+//! and the vehicle file predict, the file as it is and as corrected.
 
 mod claims;
 mod mismatch;

@@ -7,11 +7,12 @@ from collections.abc import Iterable, Mapping
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .. import _values
 from .._arguments import Progress, told
 from .._errors import OutputError, SettingError
+from .._reading import ReadingOptions, Unpack
 from . import _executors
 from ._fleet import Fleet
 from ._jobs import DiagnoseLike, FleetVehicle, options_of, vehicles_of
@@ -19,11 +20,6 @@ from ._journal import Journal
 from ._known import known_rows
 from ._logs import RobotLike, TimeLike, find, name_all
 from ._outcome import Outcome
-
-if TYPE_CHECKING:
-    from typing_extensions import Unpack
-
-    from .._reading import ReadingOptions
 
 
 def run(

@@ -1,6 +1,6 @@
 //! What a use case cannot do.
 
-use crate::limits::Limits;
+use crate::limits::OutOfLimits;
 use crate::preset;
 use std::path::PathBuf;
 use trackdyn_core::document::DocumentError;
@@ -333,15 +333,8 @@ pub enum Error {
     },
 
     /// A setting outside its limits.
-    #[error("{setting} {value}: expected {limits}")]
-    OutOfLimits {
-        /// The setting.
-        setting: &'static str,
-        /// Its value.
-        value: f64,
-        /// What it accepts.
-        limits: Limits,
-    },
+    #[error(transparent)]
+    OutOfLimits(#[from] OutOfLimits),
     /// A largest speed that no robot has.
     #[error("fastest {fastest}: expected a track speed in m/s above 0, up to {most}")]
     FastestSpeed {
@@ -408,7 +401,7 @@ impl Error {
         match self {
             Self::NotABag { setting, .. }
             | Self::GeneratedOnly { setting, .. }
-            | Self::OutOfLimits { setting, .. }
+            | Self::OutOfLimits(OutOfLimits { setting, .. })
             | Self::LogName { setting, .. }
             | Self::ReversedJoint { setting, .. } => Some(setting),
             Self::TracksNotNeeded { .. } => Some("tracks"),

@@ -123,7 +123,7 @@ pub use icr_map::{IcrMap, MapSettings, icr_map};
 pub use identify::{Identification, IdentifySettings, identify};
 pub use inspect::{InspectSettings, Inspection, inspect};
 pub use kinematics::Parameters;
-pub use limits::Limits;
+pub use limits::{Limits, OutOfLimits};
 pub use odometry::{Odometry, OdometrySettings, odometry};
 pub use plan::{OpenQuestions, Plan, PlanSettings, plan};
 pub use progress::{Observer, Progress, unobserved};

@@ -1,7 +1,6 @@
 //! Limits of settings.
 
-use crate::Error;
-use std::fmt::{Display, Formatter, Result};
+use std::fmt::{self, Display, Formatter};
 use trackdyn_core::real;
 
 /// The least and the largest value that a setting accepts.
@@ -15,6 +14,18 @@ pub struct Limits {
     pub unit: &'static str,
 }
 
+/// A setting outside its limits.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{setting} {value}: expected {limits}")]
+pub struct OutOfLimits {
+    /// The setting.
+    pub setting: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// What it accepts.
+    pub limits: Limits,
+}
+
 impl Limits {
     /// Whether a value lies within them.
     pub fn hold(&self, value: f64) -> bool {
@@ -24,27 +35,22 @@ impl Limits {
     /// A value of a setting that lies within them.
     ///
     /// # Errors
-    /// [`Error::OutOfLimits`].
-    pub fn check(self, setting: &'static str, value: f64) -> std::result::Result<f64, Error> {
-        let refused = Error::OutOfLimits { setting, value, limits: self };
-        self.hold(value).then_some(value).ok_or(refused)
+    /// [`OutOfLimits`].
+    pub fn check(self, setting: &'static str, value: f64) -> Result<f64, OutOfLimits> {
+        self.hold(value).then_some(value).ok_or(OutOfLimits { setting, value, limits: self })
     }
 
     /// A number of things that lies within them.
     ///
     /// # Errors
-    /// [`Error::OutOfLimits`].
-    pub fn check_count(
-        self,
-        setting: &'static str,
-        count: usize,
-    ) -> std::result::Result<usize, Error> {
+    /// [`OutOfLimits`].
+    pub fn check_count(self, setting: &'static str, count: usize) -> Result<usize, OutOfLimits> {
         self.check(setting, real(count)).map(|_| count)
     }
 }
 
 impl Display for Limits {
-    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self { least, most, unit } = self;
         write!(f, "{least} to {most}{}{unit}", if unit.is_empty() { "" } else { " " })
     }

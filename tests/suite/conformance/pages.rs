@@ -183,7 +183,6 @@ fn faults_are_seen() {
         ("docs/design.md", "design.md#scalar-type", ""),
         ("docs/design.md", "#scalar-type", ""),
         ("docs/design.md", "https://example.org", ""),
-        ("docs/design.md", "../trackdyn/index.html", ""),
         ("docs/design.md", "theory", "a folder"),
         ("docs/design.md", "../README.md", "leaves docs"),
         ("docs/design.md", "../../README.md", "leads nowhere"),

@@ -180,7 +180,7 @@ pub struct RecordingOptions {
     #[arg(long, value_name = "UNIT")]
     gyro_unit: Option<GyroUnit>,
     /// Read a recording in spite of a doubt, where you know better; repeatable: travel, stamps,
-    /// yaw-unit, orientation, out-of-plane, signs, dead-encoder, stuck-poses
+    /// yaw-unit, orientation, out-of-plane, signs, dead-encoder, stuck-poses, gyro-range
     #[arg(long, value_name = "DOUBT")]
     accept: Vec<DoubtKind>,
 }

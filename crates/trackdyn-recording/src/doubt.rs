@@ -28,11 +28,13 @@ pub enum DoubtKind {
     DeadEncoder,
     /// [`Doubt::StuckPoses`].
     StuckPoses,
+    /// [`Doubt::SaturatedGyroscope`].
+    GyroRange,
 }
 
 impl DoubtKind {
     /// All kinds.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Travel,
         Self::Stamps,
         Self::YawUnit,
@@ -41,6 +43,7 @@ impl DoubtKind {
         Self::Signs,
         Self::DeadEncoder,
         Self::StuckPoses,
+        Self::GyroRange,
     ];
 
     /// Its name, as the option takes it.
@@ -54,6 +57,7 @@ impl DoubtKind {
             Self::Signs => "signs",
             Self::DeadEncoder => "dead-encoder",
             Self::StuckPoses => "stuck-poses",
+            Self::GyroRange => "gyro-range",
         }
     }
 }
@@ -73,6 +77,15 @@ pub enum Axes {
     Camera,
     /// A z axis that points down.
     Down,
+}
+
+/// What is shown of speeds in the other direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Backwards {
+    /// Their size.
+    AsForwards,
+    /// Zero.
+    AsZero,
 }
 
 /// What contradicts what in a recording.
@@ -156,9 +169,11 @@ pub enum Doubt {
         /// Turn of the poses per unit of way of the other one, rad.
         per_unit: f64,
     },
-    /// The speed of a side never changes its sign while the poses move as if it did: absolute
-    /// values, as of an encoder that does not tell the direction.
+    /// The speed of a side never changes its sign while the poses move as if it did: of an encoder
+    /// that does not tell the direction, or shows one direction alone.
     Unsigned {
+        /// What is shown of a speed in the other direction.
+        shown: Backwards,
         /// The side; none for both.
         side: Option<Side>,
         /// Part of the way of its track that ran the other way by the poses; of both, the larger.
@@ -178,6 +193,15 @@ pub enum Doubt {
     StoodStill {
         /// Time of all runs, s.
         duration: f64,
+    },
+    /// Yaw rates that stay at a limit while the tracks turn the robot faster.
+    SaturatedGyroscope {
+        /// The limit, rad/s.
+        limit: f64,
+        /// Yaw rate by the tracks beyond it, rad/s.
+        fastest: f64,
+        /// Part of the time in which the tracks turn the robot faster.
+        share: f64,
     },
     /// Poses that stay where they are while the tracks drive.
     StuckPoses {
@@ -269,7 +293,9 @@ impl fmt::Display for Doubt {
                  backwards, or the sides are swapped and count backwards"
             ),
             Self::NotSides { moving, per_unit } => not_sides(f, *moving, *per_unit),
-            Self::Unsigned { side, share, unexplained } => unsigned(f, *side, *share, *unexplained),
+            Self::Unsigned { shown, side, share, unexplained } => {
+                unsigned(f, *shown, *side, *share, *unexplained)
+            }
             Self::DeadEncoder { side, speed } => {
                 let which = match side {
                     Some(Side::Left) => "the left side never changes",
@@ -286,6 +312,12 @@ impl fmt::Display for Doubt {
                 f,
                 "the robot only stands still, for {duration:.0} s: both tracks are at 0 m/s all \
                  the time, and the poses show nothing but noise"
+            ),
+            Self::SaturatedGyroscope { limit, fastest, share } => write!(
+                f,
+                "the yaw rate stays at {limit:.2} rad/s while by the tracks the robot turns at up \
+                 to {fastest:.2} rad/s, in {:.0} % of the time: a gyroscope at the end of its range",
+                100.0 * share
             ),
             Self::StuckPoses { travelled, extent } => write!(
                 f,
@@ -333,6 +365,7 @@ fn positions(
 /// What is said of speeds without a sign.
 fn unsigned(
     f: &mut fmt::Formatter<'_>,
+    shown: Backwards,
     side: Option<Side>,
     share: f64,
     [as_read, with_signs]: [f64; 2],
@@ -342,11 +375,14 @@ fn unsigned(
         Some(Side::Right) => ("the speed of the right side never changes its", "this track"),
         None => ("the speeds of both sides never change their", "a track"),
     };
+    let why = match shown {
+        Backwards::AsForwards => "absolute values, as of an encoder that does not tell the direction",
+        Backwards::AsZero => "zero in its place, as of an encoder that counts one way alone",
+    };
     write!(
         f,
-        "{whose} sign, while by the poses {track} ran the other way for {:.0} % of its way: \
-         absolute values, as of an encoder that does not tell the direction (the motion leaves \
-         {:.0} % of them unexplained, and {:.1} % with the signs that the poses tell)",
+        "{whose} sign, while by the poses {track} ran the other way for {:.0} % of its way: {why} \
+         (the motion leaves {:.0} % of them unexplained, and {:.1} % read so)",
         100.0 * share,
         100.0 * as_read,
         100.0 * with_signs
@@ -372,6 +408,7 @@ impl Doubt {
             | Self::Unsigned { .. } => DoubtKind::Signs,
             Self::DeadEncoder { .. } | Self::StoodStill { .. } => DoubtKind::DeadEncoder,
             Self::StuckPoses { .. } => DoubtKind::StuckPoses,
+            Self::SaturatedGyroscope { .. } => DoubtKind::GyroRange,
         }
     }
 
@@ -401,7 +438,8 @@ impl Doubt {
             }
             Self::YawOfCompass => {
                 "expected yaw in rad, counter-clockwise from the x axis; of one table, --columns \
-                 yaw=COLUMN:compass reads degrees of a compass"
+                 yaw=COLUMN:compass reads degrees of a compass, and --pose-axes ned reads yaw in \
+                 rad that counts clockwise from north"
             }
             Self::TurnInDegrees { .. } => {
                 "expected yaw in rad; --gyro-unit deg/s reads a gyroscope in degrees per second"
@@ -444,6 +482,10 @@ impl Doubt {
             Self::StoodStill { .. } => {
                 "expected a log of driving: turns on the spot, two each way, slowly and fast, \
                  curves both ways, and 10 m straight, forward and back"
+            }
+            Self::SaturatedGyroscope { .. } => {
+                "expected a gyroscope with a wider range, slower turns (--time takes a part), or \
+                 poses with a yaw of another source"
             }
             Self::StuckPoses { .. } => {
                 "expected poses of the robot while it drives; of a bag, --pose-topic or \

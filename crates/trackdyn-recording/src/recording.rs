@@ -25,6 +25,7 @@ mod motion;
 mod positions;
 mod run;
 mod saturated;
+mod saturated_gyro;
 mod set_back;
 mod source;
 mod spikes;

@@ -36,14 +36,14 @@ pub fn read_by(
     robot: &str,
     options: &TableOptions,
 ) -> Result<Recording, Error> {
-    let (poses, tilted) = poses(trajectory)?;
+    let Poses { poses, tilted, end } = poses(trajectory)?;
     let tilted = tilted.map(|(count, axes)| Doubt::OutOfPlane { count, axes });
     let is_accepted = options.accepted.contains(&DoubtKind::OutOfPlane);
     if let Some(doubt) = tilted.clone().filter(|_| !is_accepted) {
         return Err(Error::contradiction(trajectory, doubt));
     }
     let ((tracks, mut warnings), imu) = (folder::read_single_tracks(tracks)?, Series::default());
-    warnings.extend(tilted.map(Warning::Accepted));
+    warnings.extend(tilted.map(Warning::Accepted).into_iter().chain(end));
     let mut runs = divide(vec![UncheckedRun { id: 0, tracks, poses, imu }], &mut warnings);
     options.convert(trajectory, &mut runs)?;
     turn_sensor(&mut runs, options.pose_axes, options.mount_yaw);
@@ -59,18 +59,23 @@ pub fn read_by(
 /// # Errors
 /// As [`read`].
 pub fn read_poses(path: &Path) -> Result<Series<PoseSample>, Error> {
-    match poses(path)? {
-        (poses, None) => Ok(poses),
-        (_, Some((count, axes))) => {
-            Err(Error::contradiction(path, Doubt::OutOfPlane { count, axes }))
-        }
+    let Poses { poses, tilted, end: _ } = poses(path)?;
+    match tilted {
+        None => Ok(poses),
+        Some((count, axes)) => Err(Error::contradiction(path, Doubt::OutOfPlane { count, axes })),
     }
 }
 
-/// Poses, and how many of them no robot has.
-type Poses = (Series<PoseSample>, Option<(u64, Axes)>);
+/// What a file holds.
+struct Poses {
+    poses: Series<PoseSample>,
+    /// How many of them no robot has, and by which axes, where these are too many.
+    tilted: Option<(u64, Axes)>,
+    /// The last line, where it is unfinished.
+    end: Option<Warning>,
+}
 
-/// The poses of a file, and how many of them no robot has, where these are too many.
+/// The poses of a file.
 fn poses(path: &Path) -> Result<Poses, Error> {
     let file = input::open(path).map_err(|cause| unreadable(path, cause))?;
     let mut reader = BufReader::with_capacity(1 << 18, file);
@@ -78,7 +83,7 @@ fn poses(path: &Path) -> Result<Poses, Error> {
     let mut attitude = Attitude::default();
     let mut text = Vec::new();
     let mut line = 0;
-    let mut header_was_read = false;
+    let (mut header_was_read, mut end) = (false, None);
     loop {
         text.clear();
         let mut row = (&mut reader).take(MAX_ROW_SIZE + 1);
@@ -94,14 +99,31 @@ fn poses(path: &Path) -> Result<Poses, Error> {
         let is_header = poses.is_empty() && !header_was_read && is_of_names(row);
         header_was_read |= is_header;
         if !row.is_empty() && row[0] != b'#' && !is_header {
-            poses.push(parse_row(row, path, line, &mut attitude)?);
+            match parse_row(row, path, line, &mut attitude) {
+                Ok(pose) => poses.push(pose),
+                // A program that was switched off leaves its last line unfinished.
+                Err(_) if is_cut_off(&text, &mut reader, poses.len()) => {
+                    let (path, bytes) = (path.to_owned(), text.len());
+                    end = Some(Warning::EndLeftOut { path, line, rows: 1, bytes });
+                }
+                Err(error) => return Err(error),
+            }
         }
     }
     if poses.is_empty() {
         let message = "no poses: expected lines t x y z qx qy qz qw".to_owned();
         return Err(Error::Empty { path: path.to_owned(), message });
     }
-    Ok((poses.into(), attitude.out_of_plane()))
+    Ok(Poses { poses: poses.into(), tilted: attitude.out_of_plane(), end })
+}
+
+/// Fewest poses above a line that is left out as unfinished.
+const MIN_POSES: usize = 10;
+
+/// Whether a line ends without a line break, and so does the file.
+fn is_cut_off(text: &[u8], reader: &mut impl BufRead, poses: usize) -> bool {
+    let is_last = reader.fill_buf().is_ok_and(<[u8]>::is_empty);
+    poses >= MIN_POSES && is_last && !text.ends_with(b"\n")
 }
 
 /// Whether a line has names of columns: as many words, and none of them a number.

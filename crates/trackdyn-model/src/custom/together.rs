@@ -201,12 +201,12 @@ mod tests {
     fn works_share_calls_and_get_what_they_would_get_alone() {
         let sizes = Arc::default();
         let law = counted(&sizes);
-        let things: Vec<f64> = (0..150).map(|k| 0.5 + f64::from(k)).collect();
+        let things: Vec<i32> = (0..150).collect();
         // works of several lengths, which ask with one of two values
-        let work = |thing: &f64| -> f64 {
-            let value = if *thing < 40.0 { 2.0 } else { 3.0 };
-            let times = (*thing as usize) % 4;
-            (0..=times).map(|k| at(law, thing + k as f64, value).expect("no seven")[0]).sum()
+        let work = |thing: &i32| -> f64 {
+            let value = if *thing < 40 { 2.0 } else { 3.0 };
+            let speed = |k: i32| 0.5 + f64::from(thing + k);
+            (0..=thing % 4).map(|k| at(law, speed(k), value).expect("no seven")[0]).sum()
         };
         let shared = together(&things, true, work);
         let calls = sizes.lock().expect("nobody panics").len();

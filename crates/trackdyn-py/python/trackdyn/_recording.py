@@ -78,7 +78,7 @@ class Recording:
         accept : str or sequence of str, optional
             Doubts that do not stop the reader, because you know better: ``"travel"``, ``"stamps"``,
             ``"yaw-unit"``, ``"orientation"``, ``"out-of-plane"``, ``"signs"``, ``"dead-encoder"``,
-            ``"stuck-poses"``.
+            ``"stuck-poses"``, ``"gyro-range"``.
 
         Returns
         -------

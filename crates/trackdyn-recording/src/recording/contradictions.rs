@@ -8,7 +8,7 @@ use super::by_poses::ByDelay;
 use super::linear::{self, Linear};
 use super::motion::Following;
 use super::stretches::{Stretch, path_extent, stretches};
-use super::{Run, UncheckedRun, counted, idle, jumps, stuck, unsigned};
+use super::{Run, UncheckedRun, counted, idle, jumps, saturated_gyro, stuck, unsigned};
 use crate::doubt::Doubt;
 use crate::sample::Stream;
 use crate::unit;
@@ -194,6 +194,7 @@ pub(super) fn of_runs(runs: &[Run]) -> Vec<Doubt> {
     doubts.extend(jumps::of(runs));
     doubts.extend(stuck.or(orientation));
     doubts.extend(turn_in_degrees(runs));
+    doubts.extend(saturated_gyro::of(runs));
     doubts.extend(idle::dead_encoder(runs, &late));
     doubts.extend(travel(runs, &stretches));
     doubts.extend(unsigned::of(runs, &by_delay));

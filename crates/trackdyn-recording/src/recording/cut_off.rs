@@ -20,7 +20,7 @@ use trackdyn_core::{PerSide, Side, real};
 
 /// Fewest sizes of speeds that tell a step, and how often one has to be read: a few levels that are
 /// commanded are no lattice, and a reading that was mended is on none.
-const MIN_SIZES: usize = 8;
+const MIN_SIZES: usize = 5;
 const MIN_READINGS: usize = 3;
 
 /// Least part of the readings that are multiples of the step, and by how much of it they may be

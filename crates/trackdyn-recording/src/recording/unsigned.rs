@@ -1,15 +1,16 @@
-//! Speeds without a sign: of an encoder that counts, and does not tell the direction.
+//! Speeds without a sign: of an encoder that counts and does not tell the direction, or that shows
+//! one direction alone.
 //!
 //! # Law
 //! The way of a track is D = p (s + c φ), with s the way forward and φ the turn of the poses, and c
 //! its lever: positive on the right, negative on the left. A side whose readings never change their
-//! sign shows |D|. It is doubted where the best p |s + c φ| explains its ways and no p s + q φ
-//! does, at any delay of the poses, and where s + c φ has both signs. Late poses, slip and other
+//! sign shows |D|, or max(D, 0). It is doubted where the best p |s + c φ| or p max(s + c φ, 0)
+//! explains its ways and no p s + q φ does, at any delay of the poses, and where s + c φ has both signs. Late poses, slip and other
 //! units spoil both explanations or neither. For a drive that only goes forward, both are the same.
 
 use super::Run;
 use super::by_poses::{ByDelay, Row, larger, unexplained};
-use crate::doubt::Doubt;
+use crate::doubt::{Backwards, Doubt};
 use trackdyn_core::{PerSide, Side};
 
 /// Largest part of the way of a side, by its readings, that has the other sign: noise at rest.
@@ -35,6 +36,7 @@ const LEVERS: i32 = 24;
 /// What is known of a side whose speeds have no sign.
 #[derive(Clone, Copy)]
 struct Unsigned {
+    shown: Backwards,
     share: f64,
     unexplained: [f64; 2],
 }
@@ -47,8 +49,8 @@ pub(super) fn of(runs: &[Run], by_delay: &ByDelay) -> Option<Doubt> {
     }
     let found =
         PerSide::from_fn(|side: Side| if asked[side] { unsigned(by_delay, side) } else { None });
-    let (side, Unsigned { share, unexplained }) = found.either(Unsigned::worse)?;
-    Some(Doubt::Unsigned { side, share, unexplained })
+    let (side, Unsigned { shown, share, unexplained }) = found.either(Unsigned::worse)?;
+    Some(Doubt::Unsigned { shown, side, share, unexplained })
 }
 
 /// Whether nearly all of the way of a side has one sign.
@@ -61,28 +63,36 @@ fn keeps_its_sign(runs: &[Run], side: Side) -> bool {
 
 /// What is found of a side; none where its speeds may have a sign.
 fn unsigned(by_delay: &ByDelay, side: Side) -> Option<Unsigned> {
-    let least = |a: &[f64; 2], b: &[f64; 2]| a[0].total_cmp(&b[0]);
+    let least = |a: &(Backwards, [f64; 2]), b: &(Backwards, [f64; 2])| a.1[0].total_cmp(&b.1[0]);
     let as_read = by_delay.rows().map(|rows| unexplained(rows, |row| row.ways[side]));
     let as_read = as_read.min_by(f64::total_cmp)?;
     let levers = (0..LEVERS).map(|k| side.sign() * MIN_LEVER * LEVER_RATIO.powi(k));
-    let tried = levers
-        .flat_map(|lever| by_delay.rows().map(move |rows| left_with_signs(rows, side, lever)));
-    let [with_signs, share] = tried.min_by(least)?;
+    let tried = levers.flat_map(|lever| {
+        by_delay.rows().flat_map(move |rows| {
+            [Backwards::AsForwards, Backwards::AsZero]
+                .map(|shown| (shown, left_with_signs(rows, side, lever, shown)))
+        })
+    });
+    let (shown, [with_signs, share]) = tried.min_by(least)?;
     let is_found = as_read >= MIN_UNSIGNED_RESIDUAL
         && with_signs <= MAX_SIGNED_RESIDUAL.min(MAX_RESIDUAL_RATIO * as_read)
         && share >= MIN_SHARE;
-    is_found.then_some(Unsigned { share, unexplained: [as_read, with_signs] })
+    is_found.then_some(Unsigned { shown, share, unexplained: [as_read, with_signs] })
 }
 
-/// Part of the squares of the ways of a side that no p |s + c φ| explains, and the part of the way
-/// of s + c φ that has the rarer sign.
-fn left_with_signs(rows: &[Row], side: Side, lever: f64) -> [f64; 2] {
+/// Part of the squares of the ways of a side that no p f(s + c φ) explains, with f the size or the
+/// part that is positive, and the part of the way of s + c φ that has the rarer sign.
+fn left_with_signs(rows: &[Row], side: Side, lever: f64, shown: Backwards) -> [f64; 2] {
     let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
     let (mut ahead, mut back) = (0.0_f64, 0.0_f64);
     for row in rows {
         let (way, read) = (row.forward + lever * row.turn, row.ways[side]);
-        xx += way * way;
-        xy += way.abs() * read;
+        let seen = match shown {
+            Backwards::AsForwards => way.abs(),
+            Backwards::AsZero => way.max(0.0),
+        };
+        xx += seen * seen;
+        xy += seen * read;
         yy += read * read;
         ahead += way.max(0.0);
         back += (-way).max(0.0);
@@ -98,7 +108,7 @@ impl Unsigned {
     /// The larger numbers of both.
     fn worse(self, other: Self) -> Self {
         let unexplained = larger(self.unexplained, other.unexplained);
-        Self { share: self.share.max(other.share), unexplained }
+        Self { share: self.share.max(other.share), unexplained, ..self }
     }
 }
 
@@ -199,6 +209,18 @@ mod tests {
         }
         let rough = drive(&COMMANDS_BOTH_WAYS, 0.1, [0.1, 0.05, 0.05], |v| v.map(f64::abs));
         assert!(found(&rough).is_some());
+    }
+
+    #[test]
+    fn an_encoder_that_shows_one_direction_alone_is_found() {
+        for late in [0.0, 0.3, 3.0] {
+            let read = |v: [f64; 2]| v.map(|v| v.max(0.0));
+            let both = drive(&COMMANDS_BOTH_WAYS, late, USUAL_NOISE, read);
+            let Some(Doubt::Unsigned { shown, side, .. }) = of(&both, &ByDelay::new(&both)) else {
+                panic!("{late}");
+            };
+            assert_eq!((shown, side), (Backwards::AsZero, None), "{late}");
+        }
     }
 
     #[test]

@@ -213,6 +213,10 @@ impl Contradiction {
             let [mount, beside] = LeftOver::mount(observations);
             let shows = mount.abs() > MIN_MOUNT && beside < MAX_WAY_LEFT;
             let during = LeftOver::where_most(&fit.parameters, observations, MAX_WAY_LEFT);
+            // Factors of a fit that takes the sensor's axes for the robot's mean nothing.
+            if shows {
+                found.retain(|one| !one.is_of_track_speeds());
+            }
             found.push(Self::Way { left: left.way, mount: shows.then_some(mount), during });
         }
         found

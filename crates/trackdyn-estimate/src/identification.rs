@@ -125,6 +125,21 @@ pub struct Identification {
     pub fits: [Fit; 2],
 }
 
+/// Residuals, in times the noise, beyond which constant ICRs do not describe a drive: those of real
+/// robots on hard ground are two to five.
+const MAX_NOISE_RATIO: f64 = 8.0;
+
+impl Identification {
+    /// Size of the residuals of the best fit, in times the noise, where that is far beyond noise;
+    /// none where the noise is not known.
+    pub fn beyond_noise(&self) -> Option<f64> {
+        let fits = self.fits.iter().filter_map(|fit| fit.least_squares.as_ref().ok());
+        let least = fits.map(|fit| fit.whitened_rms).fold(f64::INFINITY, f64::min);
+        let is_far = matches!(self.weights, Weights::Noise(_)) && least.is_finite();
+        Some(least).filter(|least| is_far && *least > MAX_NOISE_RATIO)
+    }
+}
+
 /// How far a fitted clock offset may go from its start, s: two readings at 20 Hz.
 const TAU_MARGIN: f64 = 0.1;
 

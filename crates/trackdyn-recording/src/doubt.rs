@@ -376,7 +376,9 @@ fn unsigned(
         None => ("the speeds of both sides never change their", "a track"),
     };
     let why = match shown {
-        Backwards::AsForwards => "absolute values, as of an encoder that does not tell the direction",
+        Backwards::AsForwards => {
+            "absolute values, as of an encoder that does not tell the direction"
+        }
         Backwards::AsZero => "zero in its place, as of an encoder that counts one way alone",
     };
     write!(

@@ -129,6 +129,15 @@ pub fn run(options: &Options) -> Outcome {
         Identification::Points(fit) => points::text(&recording, &gauge, fit),
         Identification::Turning(fit) => summary::turning(&recording, &gauge, fit),
     })?;
+    if let Identification::Motion(fit) = &found
+        && let Some(ratio) = fit.found.beyond_noise()
+    {
+        note(format_args!(
+            "residuals are {ratio:.0} times the noise: constant ICRs do not describe all of this \
+             drive, or a part of the log is wrong. The intervals allow for both; trackdyn inspect \
+             shows where, and trackdyn diagnose which physics is missing"
+        ));
+    }
     if let Some(separation) = found.separation(&provenance()) {
         show(&summary::separation(&separation))?;
     }

@@ -70,8 +70,11 @@ pub(super) fn of(runs: &[Run]) -> Option<Doubt> {
     let differs = high? > MIN_DECILE_RATIO * low?;
     let stands = real(standing) > MIN_STANDING_SHARE * real(beyond.len());
     let fastest = per_metre * high?;
-    ((stands && differs) || repeats_its_largest(runs))
-        .then_some(Doubt::SaturatedGyroscope { limit, fastest, share })
+    ((stands && differs) || repeats_its_largest(runs)).then_some(Doubt::SaturatedGyroscope {
+        limit,
+        fastest,
+        share,
+    })
 }
 
 /// Whether many readings of the gyroscope are equal to the largest one of their sense.

@@ -4,7 +4,7 @@ use super::chain;
 use super::clock::{Clock, decide, share_rate};
 use super::date::{Received, Stamped};
 use super::fixes::{Fix, Yaw};
-use super::frames::{Frames, Hop, is_of_odometry};
+use super::frames::{Frames, Hop, is_body, is_of_odometry};
 use super::joints::Joints;
 use super::options::RosbagOptions;
 use super::path::Trajectory;
@@ -36,7 +36,7 @@ mod upright;
 mod visit;
 
 use choice::Sources;
-use mount::{Mounts, move_to_body};
+use mount::{Mounts, invert, move_to_body};
 use speeds::Streams;
 use upright::{Inertial, upright};
 
@@ -170,8 +170,15 @@ impl<'a> Collector<'a> {
                 let (key, mut poses) =
                     sources.poses(self.poses, &gyroscopes, &self.skipped, &mut warnings)?;
                 attitude = self.attitudes.get(&key).copied();
-                move_to_body(&key, &mut poses, &self.frames, &self.mounts, &mut warnings);
-                frames = [named(&key.parent), named(&key.child)];
+                let mut topics = self.seen.iter().filter(|topic| topic.name == key.topic);
+                let are_transforms = topics.any(|topic| topic.layout() == Some(Layout::Transforms));
+                if are_transforms && is_body(&key.parent) {
+                    invert(&key, &mut poses, &mut warnings);
+                    frames = [named(&key.child), named(&key.parent)];
+                } else {
+                    move_to_body(&key, &mut poses, &self.frames, &self.mounts, &mut warnings);
+                    frames = [named(&key.parent), named(&key.child)];
+                }
                 (poses, key.topic, None)
             }
         };

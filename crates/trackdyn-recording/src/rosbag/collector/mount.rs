@@ -20,6 +20,22 @@ const MAX_TILT: f64 = 0.05;
 /// Smallest distance and yaw of a mount that are used, m and rad.
 const MIN_MOUNT: f64 = 1e-4;
 
+/// Turns poses of the world in the body, as transforms from a body to a map are, into poses of the
+/// body in the world.
+pub(super) fn invert(key: &PoseKey, poses: &mut Rows, warnings: &mut Vec<Warning>) {
+    for pose in poses {
+        pose.value = inverse(pose.value);
+    }
+    let taken = format!("those of {} in {}, inverted", key.child, key.parent);
+    warnings.push(Warning::Chosen { what: "poses", taken });
+}
+
+/// Of a pose (x, y, yaw) in a frame, the pose of the frame in it.
+fn inverse([x, y, yaw]: [f64; 3]) -> [f64; 3] {
+    let (sin, cos) = yaw.sin_cos();
+    [-cos * x - sin * y, sin * x - cos * y, -yaw]
+}
+
 /// Transforms that hold at all times.
 pub(super) type Mounts = BTreeMap<Link, Isometry3<f64>>;
 
@@ -77,4 +93,18 @@ fn mount<'a>(
     };
     let steps: Option<Vec<Isometry3<f64>>> = hops.iter().map(transform).collect();
     Some((body, steps?.iter().fold(Isometry3::identity(), |before, next| before * next)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trackdyn_core::Pose;
+
+    #[test]
+    fn an_inverted_pose_leads_back() {
+        let pose = [1.5, -0.4, 2.1];
+        let [there, back] = [pose, inverse(pose)].map(|[x, y, yaw]| Pose::new(x, y, yaw));
+        let both = there.compose(&back);
+        assert!(both.x.hypot(both.y) < 1e-12 && both.yaw.abs() < 1e-12, "{both:?}");
+    }
 }

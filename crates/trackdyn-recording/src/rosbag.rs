@@ -85,6 +85,7 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
         epoch_ns: Some(collected.epoch_ns),
         names: Some(Box::new(collected.names.of_robot(options, radius))),
     };
+    let is_in_body = collected.names.parent_frame.as_deref().is_some_and(frames::is_body);
     let joints = collected.names.joints;
     let axes = options.pose_axes;
     let are_joints = options.twist_topic.is_none();
@@ -96,7 +97,7 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
     Recording::accepting(name, "unknown", collected.runs, source, warnings, &options.accepted)
         .map_err(|error| {
             if are_joints {
-                let told = Told { kind, is_gyroscope, are_named, axes };
+                let told = Told { kind, is_gyroscope, is_in_body, are_named, axes };
                 with_options(error.of_wheels(options.speed_unit, radius), &joints, &told)
             } else {
                 error.of_twist()
@@ -126,6 +127,8 @@ struct Told<'a> {
     kind: &'a str,
     /// Whether the poses are the yaw of a gyroscope alone.
     is_gyroscope: bool,
+    /// Whether the poses are told in the frame of a body.
+    is_in_body: bool,
     /// Whether joints were taken by the words of their names.
     are_named: bool,
     /// Axes in which poses were taken to be told.
@@ -134,7 +137,7 @@ struct Told<'a> {
 
 /// An error with the options that help, by the joints of each side as they were taken.
 fn with_options(error: Error, taken: &PerSide<Vec<String>>, told: &Told) -> Error {
-    let Told { kind, is_gyroscope, are_named, axes } = *told;
+    let Told { kind, is_gyroscope, is_in_body, are_named, axes } = *told;
     let Error::Contradiction { path, doubt, remedy, .. } = error else { return error };
     let reversed = |names: &[String]| -> Vec<String> {
         let of = |name: &String| match name.strip_prefix('-') {
@@ -171,6 +174,11 @@ fn with_options(error: Error, taken: &PerSide<Vec<String>>, told: &Told) -> Erro
                     "the gyroscope is upside down, or the sides are swapped: either way, \
                      {left} {right} give the same distance of the ICRs"
                 )
+            } else if is_in_body {
+                "the poses are told in the frame of the robot itself, as those of a map in the \
+                 robot are, which turn against it: expected poses of the robot in a frame of the \
+                 world (--pose-topic, or transforms by --parent-frame and --child-frame)"
+                    .to_owned()
             } else if axes == PoseAxes::NorthEastDown {
                 format!("leave out --pose-axes ned, or swap the sides by {left} {right}")
             } else if are_named {
@@ -186,7 +194,7 @@ fn with_options(error: Error, taken: &PerSide<Vec<String>>, told: &Told) -> Erro
                 )
             };
             // Poses that are mirrored look like sides that are swapped: which it is, names tell.
-            ((!are_named || is_gyroscope).then_some(joints), remedy)
+            (((!are_named || is_gyroscope) && !is_in_body).then_some(joints), remedy)
         }
         Doubt::Backwards => {
             let joints = PerSide::new(reversed(&taken.right), reversed(&taken.left));

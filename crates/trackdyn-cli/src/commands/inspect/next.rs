@@ -3,6 +3,7 @@
 use crate::options::GaugeOptions;
 use crate::shell::{self, command, option, part, path};
 use crate::wrapped::{WIDTH, wrapped};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
 use trackdyn::Inspection;
@@ -60,7 +61,9 @@ pub fn text(found: &Inspection, asked: &Asked) -> String {
 fn has_unnamed_sides(found: &Inspection) -> bool {
     let bag = &found.options.bag;
     let names = [&bag.left_joints, &bag.right_joints, &bag.left_signals, &bag.right_signals];
-    matches!(found.content, Content::Unread(_))
+    let asks_for_joints =
+        matches!(&found.content, Content::Unread(reason) if reason.contains("-joint"));
+    asks_for_joints
         && names.into_iter().all(Vec::is_empty)
         && bag.twist_topic.is_none()
         && joints(found).next().is_some()
@@ -68,7 +71,8 @@ fn has_unnamed_sides(found: &Inspection) -> bool {
 
 /// The joints of a bag.
 fn joints(found: &Inspection) -> impl Iterator<Item = &str> {
-    found.topics.iter().flat_map(|topic| &topic.joints).map(String::as_str)
+    let names = found.topics.iter().flat_map(|topic| &topic.joints).map(String::as_str);
+    names.collect::<BTreeSet<_>>().into_iter()
 }
 
 fn commands(found: &Inspection, asked: &Asked) -> Vec<String> {

@@ -316,7 +316,8 @@ impl fmt::Display for Doubt {
             Self::SaturatedGyroscope { limit, fastest, share } => write!(
                 f,
                 "the yaw rate stays at {limit:.2} rad/s while by the tracks the robot turns at up \
-                 to {fastest:.2} rad/s, in {:.0} % of the time: a gyroscope at the end of its range",
+                 to {fastest:.2} rad/s, in {:.0} % of the time: a gyroscope at the end of its \
+                 range",
                 100.0 * share
             ),
             Self::StuckPoses { travelled, extent } => write!(

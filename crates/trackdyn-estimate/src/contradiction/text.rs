@@ -138,9 +138,9 @@ fn way(f: &mut Formatter<'_>, left: f64, mount: Option<f64>, during: Option<[f64
     match mount {
         Some(mount) => write!(
             f,
-            "the sensor is turned on the robot by some {0:.0} degrees (--mount-yaw \
-             {0:.0}, added to one that was given, takes it back, --fit {1} finds the rest), or its yaw is not that of \
-             the robot",
+            "the sensor is turned on the robot by some {0:.0} degrees (--mount-yaw {0:.0}, added \
+             to one that was given, takes it back, --fit {1} finds the rest), or its yaw is not \
+             that of the robot",
             mount.to_degrees(),
             Nuisance::SensorYaw
         ),

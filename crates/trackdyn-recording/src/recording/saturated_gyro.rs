@@ -3,9 +3,9 @@
 //! # Law
 //! A robot turns by ω = k (V_r − V_l), where k changes by some percent with the speed. At the end
 //! of a range, ω stays at a limit L while V_r − V_l goes on. So k is taken from slow turning, and
-//! pieces are looked at in which k (V_r − V_l) lies well beyond L, the largest |ω|. There are hardly
-//! any of a gyroscope that follows. Where there are many, they stand at L although V_r − V_l
-//! differs, or readings repeat L to the last digit.
+//! pieces are looked at in which k (V_r − V_l) lies well beyond L, the largest |ω|. A gyroscope
+//! that follows has hardly any. Where there are many, they stand at L although V_r − V_l differs,
+//! or readings repeat L to the last digit.
 
 use super::Run;
 use super::motion::{Following, Piece, pieces};

@@ -5,8 +5,9 @@
 //! The way of a track is D = p (s + c φ), with s the way forward and φ the turn of the poses, and c
 //! its lever: positive on the right, negative on the left. A side whose readings never change their
 //! sign shows |D|, or max(D, 0). It is doubted where the best p |s + c φ| or p max(s + c φ, 0)
-//! explains its ways and no p s + q φ does, at any delay of the poses, and where s + c φ has both signs. Late poses, slip and other
-//! units spoil both explanations or neither. For a drive that only goes forward, both are the same.
+//! explains its ways and no p s + q φ does, at any delay of the poses, and where s + c φ has both
+//! signs. Late poses, slip and other units spoil all explanations or none. For a drive that only
+//! goes forward, all are the same.
 
 use super::Run;
 use super::by_poses::{ByDelay, Row, larger, unexplained};

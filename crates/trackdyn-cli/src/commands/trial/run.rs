@@ -24,8 +24,8 @@ pub struct Options {
     /// Take every N-th case only, from the I-th on (1 to N)
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
-    /// Program that is called as `PROGRAM RECORDING --vehicle FILE --held-out LIST --out DIR` and
-    /// writes DIR/diagnosis.toml [default: `trackdyn diagnose`]
+    /// Program that writes DIR/diagnosis.toml when it is called as `PROGRAM RECORDING --vehicle
+    /// FILE --held-out LIST --out DIR` [default: `trackdyn diagnose`]
     #[arg(long, value_name = "PROGRAM")]
     program: Option<PathBuf>,
     /// Name under which its diagnoses are kept and scored [default: that of the program's file]

@@ -28,10 +28,10 @@ pub struct Missing {
 }
 
 impl Missing {
-    /// Causes outside the catalogue that act like the named effects, a sentence for each; empty
+    /// Causes outside the catalogue that act like the named physics, a sentence for each; empty
     /// where none is known.
     pub fn resembling(&self) -> String {
-        let named = self.verdict.one_of.iter().filter(|_| self.kind != Kind::Constant);
+        let named = self.verdict.one_of.iter().filter(|_| self.kind == Kind::Physics);
         let sentences = named.map(|effect| effect.card().resembles);
         sentences.filter(|sentence| !sentence.is_empty()).collect::<Vec<_>>().join(" ")
     }

@@ -92,7 +92,7 @@ pub fn without_outliers(evidence: &Weighted, fit: &Fit) -> Weighted {
                 (!lost.is_empty()).then(|| evidence.without(&lost))
             };
             let rounds = std::iter::successors(Some(evidence.clone()), without_more);
-            rounds.last().expect("begins with the evidence")
+            rounds.last().unwrap_or_else(|| evidence.clone())
         }
         None => evidence.clone(),
     }

@@ -6,7 +6,7 @@
 //! tables of steady points. Residuals count by Huber's loss.
 //!
 //! # Assumes
-//! α = 1 on both sides. Parts of a drive ([`Blocks`](crate::Blocks)), or points of a table, say
+//! α = 1 on both sides. Parts of a drive ([`Blocks`]), or points of a table, say
 //! nothing of one another: the interval is that of a jackknife over them.
 
 use crate::error::Error;

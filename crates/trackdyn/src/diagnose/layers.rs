@@ -92,7 +92,7 @@ pub(super) fn of(diagnosis: &Diagnosis, provenance: &Provenance) -> Result<Layer
 /// v = (V_l + V_r)/2, ω = (V_r − V_l)/L.
 fn ideal(sample: &Sample, gauge: f64) -> Pose {
     let PerSide { left, right } = sample.speeds;
-    let twist = Twist { v_x: (left + right) / 2.0, v_y: 0.0, w: (right - left) / gauge };
+    let twist = Twist { v_x: f64::midpoint(left, right), v_y: 0.0, w: (right - left) / gauge };
     Pose::exp(&twist, sample.duration)
 }
 

@@ -36,7 +36,7 @@ impl Noise {
         let samples = evidence.samples().iter();
         samples
             .map(|sample| {
-                let mut white = || Vector3::from_fn(|_, _| random.sample(StandardNormal));
+                let mut white = || Vector3::<f64>::from_fn(|_, _| random.sample(StandardNormal));
                 let z = white();
                 match self {
                     Self::White => z,

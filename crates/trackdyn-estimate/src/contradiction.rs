@@ -266,6 +266,15 @@ impl Contradiction {
         }
     }
 
+    /// Whether it and one of another fit of the same recording are one finding.
+    pub fn is_like(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Alpha { side, .. }, Self::Alpha { side: other, .. }) => side == other,
+            (Self::Method { method, .. }, Self::Method { method: other, .. }) => method == other,
+            _ => std::mem::discriminant(self) == std::mem::discriminant(other),
+        }
+    }
+
     /// Whether it shows that track speeds are not what they seem, whatever else is fitted.
     pub fn is_of_track_speeds(&self) -> bool {
         matches!(self, Self::Alpha { .. })

@@ -116,8 +116,7 @@ impl Ros2Options {
         let residuals = export.residuals(&Document::read(path)?)?;
         if !residuals.held_out {
             warn(format_args!(
-                "the residuals in {} are of runs that the kinematics were fitted to: \
-                covariances \
+                "the residuals in {} are of runs that the kinematics were fitted to: covariances \
                  come out too small (replay others, with --runs or --time)",
                 residuals.source
             ));
@@ -283,16 +282,16 @@ pub fn run(options: &Options) -> Outcome {
 fn export(files: &Files, made: impl FnOnce(&Export) -> Result<Vec<TextFile>, Error>) -> Outcome {
     let export = Export::open(&files.kinematics, &provenance())?;
     let name = files.kinematics.display();
+    let exported = made(&export)?;
     if export.drive().is_separation_alone {
         warn(format_args!(
-            "{name} holds the distance of the ICRs alone; the point midway between them \
-            is taken for the origin of the base frame"
+            "{name} holds the distance of the ICRs alone; the point midway between them is taken \
+             for the origin of the base frame"
         ));
     }
     if export.drive().is_doubtful {
         say_doubtful(&name.to_string());
     }
-    let exported = made(&export)?;
     let sectors = export.drive().sectors;
     if sectors > 0 {
         warn(format_args!(

@@ -120,8 +120,7 @@ pub fn run(options: &Options) -> Outcome {
     if settings.nuisances.contains(&Nuisance::SensorYaw) {
         note(format_args!(
             "no kinematics file holds the yaw of the sensor's mount: before odometry and \
-            export with these \
-             parameters, turn the sensor by it, or the frame of the poses"
+             export with these parameters, turn the sensor by it, or the frame of the poses"
         ));
     }
     show(&match &found {

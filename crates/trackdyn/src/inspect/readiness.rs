@@ -206,10 +206,10 @@ fn to_identify(
     };
     for contradiction in identified.contradictions().into_iter().flatten() {
         let is_of_gauge = matches!(contradiction, Contradiction::Efficiency { .. });
-        let finding = Finding::Fit(contradiction);
-        let is_new = !findings.iter().any(|other| other.to_string() == finding.to_string());
-        if is_new && (settings.gauge.is_some() || !is_of_gauge) {
-            findings.push(finding);
+        let is_known =
+            |of: &Finding| matches!(of, Finding::Fit(other) if other.is_like(&contradiction));
+        if !findings.iter().any(is_known) && (settings.gauge.is_some() || !is_of_gauge) {
+            findings.push(Finding::Fit(contradiction));
         }
     }
     if let Identification::Points(fit) = &identified

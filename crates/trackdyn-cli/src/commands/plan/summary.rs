@@ -94,8 +94,7 @@ fn answer(pair: &Separation, plan: &Found) -> String {
     match pair.answer {
         Answer::Longer(time) => format!(
             "{one} or {other}: this plan does not decide, z = {:.1} is below {}; it would \
-            take some \
-             {time:.0} s. Instead: {}",
+             take some {time:.0} s. Instead: {}",
             pair.z,
             plan.min_separation,
             measurements(pair.effects).join("; ")

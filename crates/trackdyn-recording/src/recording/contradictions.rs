@@ -193,8 +193,12 @@ pub(super) fn of_runs(runs: &[Run]) -> Vec<Doubt> {
     doubts.extend(counted::of(runs, &by_delay));
     doubts.extend(jumps::of(runs));
     doubts.extend(stuck.or(orientation));
-    doubts.extend(turn_in_degrees(runs));
-    doubts.extend(saturated_gyro::of(runs));
+    if !runs.iter().any(Run::has_positions)
+        && let Some(following) = Following::of(runs, &|_, _, _| false)
+    {
+        doubts.extend(turn_in_degrees(&following));
+        doubts.extend(saturated_gyro::of(runs, &following));
+    }
     doubts.extend(idle::dead_encoder(runs, &late));
     doubts.extend(travel(runs, &stretches));
     doubts.extend(unsigned::of(runs, &by_delay));
@@ -223,12 +227,9 @@ fn of_columns(runs: &[Run]) -> Option<Doubt> {
     })
 }
 
-/// Yaw in degrees, where it is all that is known.
-fn turn_in_degrees(runs: &[Run]) -> Option<Doubt> {
-    if runs.iter().any(Run::has_positions) {
-        return None;
-    }
-    let per_metre = Following::of(runs, &|_, _, _| false)?.turn;
+/// Yaw in degrees, where it is all that is known and follows the tracks.
+fn turn_in_degrees(following: &Following) -> Option<Doubt> {
+    let per_metre = following.turn;
     (per_metre > MIN_DEGREES_PER_METRE).then_some(Doubt::TurnInDegrees { per_metre })
 }
 

@@ -37,12 +37,8 @@ const MIN_DECILE_RATIO: f64 = 1.15;
 const ROUNDING: f64 = 1e-5;
 const MIN_EQUAL_SHARE: f64 = 0.01;
 
-/// A gyroscope at the end of its range, in runs that have yaw alone.
-pub(super) fn of(runs: &[Run]) -> Option<Doubt> {
-    if runs.iter().any(Run::has_positions) {
-        return None;
-    }
-    let following = Following::of(runs, &|_, _, _| false)?;
+/// A gyroscope at the end of its range, in runs that have yaw alone, which follows the tracks.
+pub(super) fn of(runs: &[Run], following: &Following) -> Option<Doubt> {
     let rates = |run: &Run, piece: &Piece| {
         let (ways, time) = (following.ways(run, piece), piece.end - piece.start);
         [piece.turn / time, (ways.right - ways.left) / time]
@@ -121,6 +117,7 @@ mod tests {
 
     #[test]
     fn the_end_of_a_range_is_found_and_turning_that_follows_is_not() {
+        let of = |runs: &[Run]| of(runs, &Following::of(runs, &|_, _, _| false)?);
         assert_eq!(of(&driven(|rate, _| rate)), None);
         assert_eq!(of(&driven(|rate, k| rate + 0.05 * noise(k))), None);
         for limit in [0.4, 0.8] {

@@ -13,6 +13,7 @@ use crate::rosbag::frames::{Frames, Hop, Link, is_body};
 use crate::rosbag::message::planar;
 use nalgebra::{Isometry3, Vector3};
 use std::collections::BTreeMap;
+use trackdyn_core::Pose;
 
 /// Largest tilt of an upright sensor, rad: 3 degrees.
 const MAX_TILT: f64 = 0.05;
@@ -24,16 +25,12 @@ const MIN_MOUNT: f64 = 1e-4;
 /// body in the world.
 pub(super) fn invert(key: &PoseKey, poses: &mut Rows, warnings: &mut Vec<Warning>) {
     for pose in poses {
-        pose.value = inverse(pose.value);
+        let [x, y, yaw] = pose.value;
+        let Pose { x, y, yaw } = Pose::new(x, y, yaw).inverse();
+        pose.value = [x, y, yaw];
     }
     let taken = format!("those of {} in {}, inverted", key.child, key.parent);
     warnings.push(Warning::Chosen { what: "poses", taken });
-}
-
-/// Of a pose (x, y, yaw) in a frame, the pose of the frame in it.
-fn inverse([x, y, yaw]: [f64; 3]) -> [f64; 3] {
-    let (sin, cos) = yaw.sin_cos();
-    [-cos * x - sin * y, sin * x - cos * y, -yaw]
 }
 
 /// Transforms that hold at all times.
@@ -98,12 +95,15 @@ fn mount<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trackdyn_core::Pose;
+    use crate::rosbag::date::Received;
 
     #[test]
     fn an_inverted_pose_leads_back() {
         let pose = [1.5, -0.4, 2.1];
-        let [there, back] = [pose, inverse(pose)].map(|[x, y, yaw]| Pose::new(x, y, yaw));
+        let [topic, parent, child] = ["/tf", "base_link", "map"].map(str::to_owned);
+        let mut inverted = vec![Received { stamp_ns: None, log_ns: 0, value: pose }];
+        invert(&PoseKey { topic, parent, child }, &mut inverted, &mut Vec::new());
+        let [there, back] = [pose, inverted[0].value].map(|[x, y, yaw]| Pose::new(x, y, yaw));
         let both = there.compose(&back);
         assert!(both.x.hypot(both.y) < 1e-12 && both.yaw.abs() < 1e-12, "{both:?}");
     }

@@ -97,8 +97,8 @@ fn a_wrong_height_is_named_beside_inertia_that_is_missing() {
     assert!(place.after.value < 0.7 * place.before.value, "{place:?}");
 }
 
-/// The headings of a map are good to a degree: a drift of the friction hides in them, and shows
-/// with its size beside a gyroscope.
+/// The headings of a map are good to a degree: they hide a drift of the friction among its
+/// look-alikes. A gyroscope leaves one of these at most, and shows its size.
 #[test]
 fn a_gyroscope_shows_what_coarse_headings_hide() {
     const RATE: f64 = 0.000_12;
@@ -113,12 +113,13 @@ fn a_gyroscope_shows_what_coarse_headings_hide() {
     let recording = recording_by(&[&concealed], &sensors);
     let file = owned(&[&concealed]);
     let without = diagnosed(&recording, &file).expect("an answer");
-    assert!(physics(&without).is_empty(), "{:?}", named(&without));
+    assert!(physics(&without).iter().all(|set| set.len() > 2), "{:?}", named(&without));
     let with = diagnosed_by_gyroscope(&recording, &file).expect("an answer");
     let is_one_of =
         |one: &&Missing| one.verdict.one_of.iter().any(|of| of.name() == "friction-drift");
     let drift = with.answer.missing.iter().find(is_one_of);
     let drift = drift.unwrap_or_else(|| panic!("{:?}", named(&with)));
+    assert!(drift.verdict.one_of.len() <= 2, "{:?}", named(&with));
     let [low, high] = [drift.parameters[0].low, drift.parameters[0].high];
     assert!((low..=high).contains(&mean_rate), "{low} to {high}");
     let found = with.evidence.seen.gyroscope().expect("asked").as_ref().expect("it serves");

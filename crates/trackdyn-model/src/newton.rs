@@ -19,6 +19,14 @@ impl Tolerance {
     /// Tolerance for friction computed to half the digits.
     const COARSE: Self = Self { converged: 1e-8, rounding: 1e-7, is_trusting: true };
 
+    /// This tolerance, or a residual that counts as converged if that is larger.
+    pub fn or(self, converged: f64) -> Self {
+        if converged <= self.converged {
+            return self;
+        }
+        Self { converged, rounding: self.rounding.max(converged), is_trusting: true }
+    }
+
     /// Tolerance at a resolution of friction: a root is no more accurate than that.
     pub fn at(self, resolution: Resolution) -> Self {
         if resolution == Resolution::Fine { self } else { Self::COARSE }

@@ -33,9 +33,6 @@ const SPIN_SPEED: f64 = 1e-6;
 /// speeds over the faster one.
 const TOLERANCE: Tolerance = Tolerance { converged: 1e-13, rounding: 1e-11, is_trusting: false };
 
-/// Largest tolerance of a solve from a known motion: both results are compared with each other.
-const MAX_COMPARED_RESIDUAL: f64 = 1e-9;
-
 /// Largest number of iterations between belt speeds and traction.
 const MAX_ALTERNATIONS: usize = 100;
 
@@ -327,8 +324,6 @@ impl<'s> Problem<'s> {
     fn solve_beside(self, known: &Linearised) -> Option<Root<'s>> {
         let residual = |z: Vector3<f64>| Vector3::from(self.residual([z[0], z[1], z[2]]));
         let tolerance = TOLERANCE.at(self.solver.model.resolution());
-        let tolerance =
-            Tolerance { converged: tolerance.converged.min(MAX_COMPARED_RESIDUAL), ..tolerance };
         let start = (known.point, residual(known.point));
         let convergence = newton::from_near(start, known.inverse, tolerance, residual)?;
         Some(Root { problem: self, convergence })

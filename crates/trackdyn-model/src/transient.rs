@@ -34,7 +34,7 @@ pub(crate) use stage::gripping;
 pub use tangent::tangents;
 
 use crate::{Circumstance, Model, Motion, Solution, Stationary, Status, Support};
-use stage::{Balanced, Inverse, Stage, Start};
+use stage::{Balanced, Known, Stage, Start, TOLERANCE};
 use trackdyn_core::frames::ros_twist_from_paper;
 use trackdyn_core::{Moment, PerSide, Plant, Pose, Stopped, Trajectory, Twist};
 
@@ -109,6 +109,8 @@ pub struct Transient<'m> {
     accuracy: Option<Accuracy>,
     /// Slip velocity below which a track sticks, m/s.
     creep: f64,
+    /// Residual over the weight that counts as balance; zero for the best.
+    balance: f64,
     /// Whether forces depend on acceleration. Without inertia the twist jumps, and its rate is
     /// meaningless.
     has_inertia: bool,
@@ -153,8 +155,8 @@ struct State {
     traction: PerSide<f64>,
     /// Time for which the resultant load has lain outside the contact, s; zero where it does not.
     tipping: f64,
-    /// Inverse Jacobian of the last balance.
-    inverse: Inverse,
+    /// What is known of the Jacobian of the last balance.
+    known: Known,
 }
 
 impl<'m> Transient<'m> {
@@ -173,13 +175,14 @@ impl<'m> Transient<'m> {
             belt_speed: still,
             traction: still,
             tipping: 0.0,
-            inverse: Inverse::default(),
+            known: Known::default(),
         };
         Self {
             model,
             longest_step: Self::STEP,
             accuracy: None,
             creep: STICKING_SLIP_VELOCITY,
+            balance: 0.0,
             has_inertia: Self::feels_inertia(model),
             steps: None,
             state,
@@ -201,6 +204,12 @@ impl<'m> Transient<'m> {
     /// a larger one is faster.
     pub fn with_creep(self, creep: f64) -> Self {
         Self { creep, ..self }
+    }
+
+    /// Sets a residual over the weight that counts as balance, which is faster; by default none
+    /// beyond rounding does.
+    pub fn with_balance(self, balance: f64) -> Self {
+        Self { balance, ..self }
     }
 
     /// Records the steps.
@@ -366,18 +375,19 @@ impl<'m> Transient<'m> {
         });
         let per_second = if self.has_inertia { duration.recip() } else { 0.0 };
         let Self { model, creep, .. } = *self;
-        let stage = Stage { model, ground: &ground, driven, base, per_second, creep };
+        let tolerance = TOLERANCE.at(model.resolution()).or(self.balance);
+        let stage = Stage { model, ground: &ground, driven, base, per_second, creep, tolerance };
         let start = Start {
             twist: guess,
             belt_speed: before.belt_speed,
             traction: before.traction,
-            inverse: before.inverse,
+            known: before.known,
         };
-        let Balanced { motion, traction, inverse } = stage.solve(&start)?;
+        let Balanced { motion, traction, known } = stage.solve(&start)?;
         let tips = self.model.support(&ground, &motion) == Support::Tips;
         let tipping = if tips { self.state.tipping + after } else { 0.0 };
         let Motion { twist, belt_speed, .. } = motion;
-        Some(State { twist, driven, belt_speed, traction, tipping, inverse, ..*before })
+        Some(State { twist, driven, belt_speed, traction, tipping, known, ..*before })
     }
 
     /// Whether forces other than friction depend on acceleration; otherwise the motion is always

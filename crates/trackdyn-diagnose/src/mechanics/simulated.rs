@@ -29,6 +29,8 @@ struct Steps {
     shortest: f64,
     /// Estimated error of the twist above which a step is shortened, m/s.
     tolerance: f64,
+    /// Residual force over weight that counts as balance.
+    balance: f64,
 }
 
 impl Steps {
@@ -39,16 +41,18 @@ impl Steps {
             longest: settings.max_step,
             shortest: settings.min_step,
             tolerance: settings.step_tolerance,
+            balance: settings.balance_tolerance,
         }
     }
 
     /// Steps for shear-stress laws. With the defaults they err more, but alike with and without a
-    /// law, so that the errors cancel.
+    /// law, so that the errors cancel; what they leave unbalanced would be taken for a law.
     fn coarse(settings: &settings::Mechanics) -> Self {
         Self {
             longest: settings.max_sheared_step,
             shortest: settings.min_sheared_step,
             tolerance: settings.sheared_step_tolerance,
+            balance: 0.0,
         }
     }
 }
@@ -454,6 +458,7 @@ fn path_in_time(
         .with_step(steps.longest)
         .with_tolerance(steps.tolerance, steps.shortest)
         .with_creep(creep)
+        .with_balance(steps.balance)
         .with_twist(start)
         .with_steps();
     path.push(robot.moment());

@@ -31,8 +31,8 @@ settings_group! {
         min_step: f64 = 0.0025, "s", [1e-6, 1.0],
             "Bodies follow belts in milliseconds.";
         /// Twist error that shortens a step.
-        step_tolerance: f64 = 1e-3, "m/s", [1e-9, 1.0],
-            "As good as steps of 2 ms.";
+        step_tolerance: f64 = 3e-3, "m/s", [1e-9, 1.0],
+            "Moves a pose by 0.01 mm in 0.1 s.";
         /// Longest step beside shear laws.
         max_sheared_step: f64 = 0.05, "s", [1e-4, 1.0],
             "Readings rarely come later.";

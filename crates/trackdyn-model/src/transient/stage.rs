@@ -6,7 +6,7 @@ use nalgebra::{SMatrix, SVector, Vector3};
 use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist};
 
 /// Tolerance of the residual over the weight: 10⁻⁹ of gravity moves no robot.
-const TOLERANCE: Tolerance = Tolerance { converged: 1e-11, rounding: 1e-9, is_trusting: false };
+pub const TOLERANCE: Tolerance = Tolerance { converged: 1e-11, rounding: 1e-9, is_trusting: false };
 
 /// Number of unknowns without belt slip: departure of the twist from straight driving at the left
 /// belt's speed.
@@ -28,6 +28,8 @@ pub struct Stage<'a> {
     pub per_second: f64,
     /// Slip velocity ε below which a track sticks, m/s.
     pub creep: f64,
+    /// Residual over the weight that counts as balance.
+    pub tolerance: Tolerance,
 }
 
 /// Start of a solve.
@@ -37,8 +39,8 @@ pub struct Start {
     pub belt_speed: PerSide<f64>,
     /// Traction over normal load, forward positive.
     pub traction: PerSide<f64>,
-    /// Inverse Jacobian at that motion, if known.
-    pub inverse: Inverse,
+    /// What is known of the Jacobian at that motion.
+    pub known: Known,
 }
 
 /// A solved balance.
@@ -46,49 +48,72 @@ pub struct Balanced {
     pub motion: Motion,
     /// Traction over normal load, forward positive, with belt slip on the sprockets; else zero.
     pub traction: PerSide<f64>,
-    pub inverse: Inverse,
+    pub known: Known,
 }
 
-/// Inverse of the Jacobian of a balance.
+/// What is known of the Jacobian of a balance.
 #[derive(Clone, Copy, Debug, Default)]
-pub enum Inverse {
+pub enum Known {
     #[default]
-    Unknown,
-    Firm(SMatrix<f64, UNKNOWNS_WITHOUT_SLIP, UNKNOWNS_WITHOUT_SLIP>),
-    Slipping(SMatrix<f64, UNKNOWNS_WITH_SLIP, UNKNOWNS_WITH_SLIP>),
+    Nothing,
+    Firm(Slopes<UNKNOWNS_WITHOUT_SLIP>),
+    Slipping(Slopes<UNKNOWNS_WITH_SLIP>),
+}
+
+/// Jacobian of a balance, J = J_u + J_a/(γ h): by the twist, and by its rate.
+#[derive(Clone, Copy, Debug)]
+pub struct Slopes<const N: usize> {
+    /// J⁻¹.
+    inverse: SMatrix<f64, N, N>,
+    /// J_a.
+    by_rate: SMatrix<f64, N, N>,
+    /// 1/(γ h), 1/s.
+    per_second: f64,
+}
+
+impl<const N: usize> Slopes<N> {
+    /// The Jacobian for a step of another length; none where it is singular.
+    fn after(self, per_second: f64) -> Option<Self> {
+        if per_second == self.per_second {
+            return Some(self);
+        }
+        let longer = self.by_rate * (per_second - self.per_second);
+        let inverse = (self.inverse.try_inverse()? + longer).try_inverse()?;
+        Some(Self { inverse, per_second, ..self })
+    }
 }
 
 impl Stage<'_> {
     /// Solves the balance; none without convergence.
     pub fn solve(&self, start: &Start) -> Option<Balanced> {
         if self.model.drive().slip_per_traction == 0.0 {
-            let known = if let Inverse::Firm(known) = start.inverse { Some(known) } else { None };
-            self.balanced(&self.search(start, PerSide::default(), known), Inverse::Firm)
+            let known = if let Known::Firm(known) = start.known { Some(known) } else { None };
+            self.balanced(self.search(start, PerSide::default(), known), Known::Firm)
         } else {
-            let known =
-                if let Inverse::Slipping(known) = start.inverse { Some(known) } else { None };
-            self.balanced(&self.search(start, start.traction, known), Inverse::Slipping)
+            let known = if let Known::Slipping(known) = start.known { Some(known) } else { None };
+            self.balanced(self.search(start, start.traction, known), Known::Slipping)
         }
     }
 
     fn balanced<const N: usize>(
         &self,
-        found: &Convergence<N>,
-        inverse: impl Fn(SMatrix<f64, N, N>) -> Inverse,
+        (found, slopes): (Convergence<N>, Option<Slopes<N>>),
+        known: impl Fn(Slopes<N>) -> Known,
     ) -> Option<Balanced> {
         let z = found.point.into();
-        let inverse = found.inverse.map_or(Inverse::Unknown, inverse);
+        let known = slopes.map_or(Known::Nothing, known);
         let motion = self.motion(&z);
-        found.is_root.then(|| Balanced { motion, traction: traction(&z), inverse })
+        found.is_root.then(|| Balanced { motion, traction: traction(&z), known })
     }
 
-    /// Solves from the given start, then from turning and sticking tracks.
+    /// Solves from the given start, then from turning and sticking tracks. Also returns the
+    /// Jacobian at the end, where it was found.
     fn search<const N: usize>(
         &self,
         start: &Start,
         traction: PerSide<f64>,
-        inverse: Option<SMatrix<f64, N, N>>,
-    ) -> Convergence<N> {
+        known: Option<Slopes<N>>,
+    ) -> (Convergence<N>, Option<Slopes<N>>) {
         let PerSide { left, right } = self.model.drive().belt_speed(self.driven, traction);
         let Twist { v_x, v_y, w } = start.twist;
         let stays = Vector3::new(v_x, v_y - left, w);
@@ -98,11 +123,13 @@ impl Stage<'_> {
                 [departure[0], departure[1], departure[2], traction.left, traction.right];
             SVector::<f64, N>::from_fn(|row, _| unknowns[row])
         };
-        let tolerance = TOLERANCE.at(self.model.resolution());
+        let tolerance = self.tolerance;
         let residual = |z: SVector<f64, N>| SVector::from(self.residual::<f64, N>(z.into()));
-        let near = inverse.and_then(|inverse| {
-            let start = at(follows);
-            newton::from_near((start, residual(start)), inverse, tolerance, residual)
+        let near = known.and_then(|known| {
+            let (start, known) = (at(follows), known.after(self.per_second)?);
+            let inverse = known.inverse;
+            let near = newton::from_near((start, residual(start)), inverse, tolerance, residual)?;
+            Some((near, near.inverse.map(|inverse| Slopes { inverse, ..known })))
         });
         if let Some(near) = near {
             return near;
@@ -125,7 +152,27 @@ impl Stage<'_> {
                 residual,
             )
         });
-        newton::first_root(ends, |end| end).expect("several starts were tried")
+        let found = newton::first_root(ends, |end| end).expect("several starts were tried");
+        let slopes = found.inverse.map(|inverse| {
+            let by_rate = self.by_rate(found.point.into());
+            Slopes { inverse, by_rate, per_second: self.per_second }
+        });
+        (found, slopes)
+    }
+
+    /// J_a: derivative of the residual by the unknowns, through the acceleration alone, times γ h.
+    fn by_rate<const N: usize>(&self, z: [f64; N]) -> SMatrix<f64, N, N> {
+        if self.per_second == 0.0 {
+            return SMatrix::zeros();
+        }
+        let base = Dual::<3>::variables(self.base.to_array());
+        let by_base = self.residual_from(z.map(Dual::from), &base);
+        let by_base: SMatrix<f64, N, 3> =
+            SMatrix::from_fn(|row, column| by_base[row].gradient[column]);
+        let twist = self.motion(&Dual::<N>::variables(z)).twist.to_array();
+        let twist: SMatrix<f64, 3, N> = SMatrix::from_fn(|row, column| twist[row].gradient[column]);
+        // u̇ = (u − u_b)/(γ h): ∂r/∂u̇ = −γ h ∂r/∂u_b
+        by_base * twist * -self.per_second.recip()
     }
 
     /// A turn with this difference of belt speeds (m/s), about a point a quarter of the contact

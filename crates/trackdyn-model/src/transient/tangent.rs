@@ -15,7 +15,7 @@
 //! # Assumes
 //! Forces that do not depend on place, heading or time; equal gains and lags of the drive.
 
-use super::stage::{Stage, UNKNOWNS_WITH_SLIP, UNKNOWNS_WITHOUT_SLIP, gripping};
+use super::stage::{Stage, TOLERANCE, UNKNOWNS_WITH_SLIP, UNKNOWNS_WITHOUT_SLIP, gripping};
 use super::{GAMMA, Instant, Step, Transient, base_of_second};
 use crate::{Circumstance, Ground, Model, Motion};
 use nalgebra::{SMatrix, SVector, Vector3};
@@ -96,7 +96,8 @@ impl<'a> Along<'a> {
         let base = twist - rate * step;
         let per_second = if self.has_inertia { step.recip() } else { 0.0 };
         let Self { model, ref ground, creep, .. } = *self;
-        let stage = Stage { model, ground, driven, base, per_second, creep };
+        let tolerance = TOLERANCE;
+        let stage = Stage { model, ground, driven, base, per_second, creep, tolerance };
         let departure = Twist { v_y: twist.v_y - belt_speed.left, ..twist };
         // Tractions are unknowns only where belts slip on their sprockets.
         let traction = if N == UNKNOWNS_WITH_SLIP {

@@ -117,6 +117,10 @@ fn poses(path: &Path) -> Result<Poses, Error> {
     Ok(Poses { poses: poses.into(), tilted: attitude.out_of_plane(), end })
 }
 
+/// What is expected where columns stand between commas: their order may be another, too.
+const BLANKS: &str =
+    "numbers with blanks between; a table with commas is read as .csv, by --columns";
+
 /// Fewest poses above a line that is left out as unfinished.
 const MIN_POSES: usize = 10;
 
@@ -148,7 +152,7 @@ fn parse_row(
                 column: found + 1,
                 name: COLUMNS[found].to_owned(),
                 value: String::from_utf8_lossy(word).into_owned(),
-                expected: "a number",
+                expected: if word.contains(&b',') { BLANKS } else { "a number" },
             })?;
         }
         found += 1;
@@ -194,6 +198,9 @@ mod tests {
             assert_eq!(poses.len(), 40);
             assert!((poses[39].pose.x - 3.9).abs() < 1e-12, "{:?}", poses[39]);
         }
+        let (_, recording) = drive("0.0,0,0,0,0,0,0,1\n");
+        let error = recording.expect_err("commas").to_string();
+        assert!(error.contains("walk.tum:1:1") && error.contains("--columns"), "{error}");
         for header in ["t x y\n", "t x y z qx qy qz qw\nt x y z qx qy qz qw\n"] {
             let (_, recording) = drive(header);
             assert!(recording.is_err_and(|error| error.to_string().contains("walk.tum:")));

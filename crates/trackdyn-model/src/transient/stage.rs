@@ -53,6 +53,7 @@ pub struct Balanced {
 
 /// What is known of the Jacobian of a balance.
 #[derive(Clone, Copy, Debug, Default)]
+#[expect(clippy::large_enum_variant, reason = "a state is copied, which takes no time")]
 pub enum Known {
     #[default]
     Nothing,
@@ -267,4 +268,41 @@ pub fn gripping<S: Scalar>(
 fn grip<S: Scalar>(slip: S, creep: f64) -> S {
     // σ/√(σ² + ε²)
     slip / (slip * slip + creep * creep).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ActiveEffect, Circumstance, VehicleFile};
+    use nalgebra::Matrix3;
+
+    fn jacobian(stage: &Stage, z: [f64; 3]) -> Matrix3<f64> {
+        let rows = stage.residual(Dual::<3>::variables(z));
+        Matrix3::from_fn(|row, column| rows[row].gradient[column])
+    }
+
+    /// In one motion with one acceleration, by a short and by a long step.
+    #[test]
+    fn a_jacobian_for_a_step_of_another_length_is_that_of_the_step() {
+        const LENGTHS: [f64; 2] = [400.0, 30.0];
+        let texts = ["yaw-inertia", "centripetal", "load-transfer:cog_height_m=0.2"];
+        let effects = texts.iter().map(|text| text.parse::<ActiveEffect>().expect("an effect"));
+        let model = &Model::new(VehicleFile::auriga_alpha().vehicle, effects.collect());
+        let ground = &model.ground(&Circumstance::default());
+        let (driven, tolerance) = (PerSide::new(-0.2, 0.7), TOLERANCE);
+        let twist = Twist { v_x: 0.02, v_y: 0.3, w: 0.9 };
+        let rate = Twist { v_x: 0.4, v_y: -1.0, w: 2.0 };
+        let z = [twist.v_x, twist.v_y - driven.left, twist.w];
+        let [short, long] = LENGTHS.map(|per_second| {
+            let base = twist - rate * per_second.recip();
+            Stage { model, ground, driven, base, per_second, creep: 1e-6, tolerance }
+        });
+        let inverse = jacobian(&short, z).try_inverse().expect("regular");
+        let known = Slopes { inverse, by_rate: short.by_rate(z), per_second: short.per_second };
+        let found = known.after(long.per_second).expect("regular").inverse;
+        let off = found * jacobian(&long, z) - Matrix3::identity();
+        assert!(off.norm() < 1e-9, "{off}");
+        let unchanged = inverse * jacobian(&long, z) - Matrix3::identity();
+        assert!(unchanged.norm() > 0.1, "the length matters: {unchanged}");
+    }
 }

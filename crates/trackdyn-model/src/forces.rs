@@ -1,5 +1,6 @@
 //! Sum of all forces on the body at a motion, and its derivatives.
 
+use crate::newton::gradients;
 use crate::transient::gripping;
 use crate::{Ground, Model, Motion};
 use nalgebra::{Matrix3, Vector3};
@@ -45,10 +46,6 @@ impl Forces<'_> {
             gripping(self.model, self.ground, &motion, self.creep).sum();
         [force_x, force_y, moment]
     }
-}
-
-fn gradients(rows: &[Dual<3>; 3]) -> Matrix3<f64> {
-    Matrix3::from_fn(|row, column| rows[row].gradient[column])
 }
 
 #[cfg(test)]

@@ -19,8 +19,8 @@ impl Tolerance {
     /// Tolerance for friction computed to half the digits.
     const COARSE: Self = Self { converged: 1e-8, rounding: 1e-7, is_trusting: true };
 
-    /// This tolerance, or a residual that counts as converged if that is larger.
-    pub fn or(self, converged: f64) -> Self {
+    /// This tolerance, with a residual that counts as converged if that is larger.
+    pub fn at_least(self, converged: f64) -> Self {
         if converged <= self.converged {
             return self;
         }
@@ -48,19 +48,26 @@ const MIN_STEP_SHARE: f64 = 1e-3;
 
 /// Residual and Jacobian at a point.
 pub struct Evaluation<const N: usize> {
-    residual: SVector<f64, N>,
-    jacobian: SMatrix<f64, N, N>,
+    /// Residual of each equation.
+    pub residual: SVector<f64, N>,
+    /// Its derivatives by the unknowns.
+    pub jacobian: SMatrix<f64, N, N>,
 }
 
 impl<const N: usize> Evaluation<N> {
     /// From a residual in dual numbers with derivatives by the unknowns.
     #[inline]
     pub fn of_dual(residual: [Dual<N>; N]) -> Self {
-        Self {
-            residual: SVector::from(residual.map(|r| r.value)),
-            jacobian: SMatrix::from_fn(|row, column| residual[row].gradient[column]),
-        }
+        Self { residual: SVector::from(residual.map(|r| r.value)), jacobian: gradients(&residual) }
     }
+}
+
+/// Derivatives of dual numbers, a row for each.
+#[inline]
+pub fn gradients<const ROWS: usize, const N: usize>(
+    rows: &[Dual<N>; ROWS],
+) -> SMatrix<f64, ROWS, N> {
+    SMatrix::from_fn(|row, column| rows[row].gradient[column])
 }
 
 /// End of the iteration.

@@ -33,6 +33,7 @@ mod tangent;
 pub(crate) use stage::gripping;
 pub use tangent::tangents;
 
+use crate::newton::Tolerance;
 use crate::{Circumstance, Model, Motion, Solution, Stationary, Status, Support};
 use stage::{Balanced, Known, Stage, Start, TOLERANCE};
 use trackdyn_core::frames::ros_twist_from_paper;
@@ -109,8 +110,8 @@ pub struct Transient<'m> {
     accuracy: Option<Accuracy>,
     /// Slip velocity below which a track sticks, m/s.
     creep: f64,
-    /// Residual over the weight that counts as balance; zero for the best.
-    balance: f64,
+    /// Residual over the weight that counts as balance.
+    tolerance: Tolerance,
     /// Whether forces depend on acceleration. Without inertia the twist jumps, and its rate is
     /// meaningless.
     has_inertia: bool,
@@ -182,7 +183,7 @@ impl<'m> Transient<'m> {
             longest_step: Self::STEP,
             accuracy: None,
             creep: STICKING_SLIP_VELOCITY,
-            balance: 0.0,
+            tolerance: TOLERANCE.at(model.resolution()),
             has_inertia: Self::feels_inertia(model),
             steps: None,
             state,
@@ -209,7 +210,7 @@ impl<'m> Transient<'m> {
     /// Sets a residual over the weight that counts as balance, which is faster; by default none
     /// beyond rounding does.
     pub fn with_balance(self, balance: f64) -> Self {
-        Self { balance, ..self }
+        Self { tolerance: self.tolerance.at_least(balance), ..self }
     }
 
     /// Records the steps.
@@ -374,14 +375,14 @@ impl<'m> Transient<'m> {
             time: self.state.t + after,
         });
         let per_second = if self.has_inertia { duration.recip() } else { 0.0 };
-        let Self { model, creep, .. } = *self;
-        let tolerance = TOLERANCE.at(model.resolution()).or(self.balance);
-        let stage = Stage { model, ground: &ground, driven, base, per_second, creep, tolerance };
+        let Self { model, creep, tolerance, .. } = *self;
+        let stage = Stage { model, ground: &ground, driven, base, per_second, creep };
         let start = Start {
             twist: guess,
             belt_speed: before.belt_speed,
             traction: before.traction,
             known: before.known,
+            tolerance,
         };
         let Balanced { motion, traction, known } = stage.solve(&start)?;
         let tips = self.model.support(&ground, &motion) == Support::Tips;

@@ -1,6 +1,6 @@
 //! A stage of a step: the balance of forces at the end of a short interval.
 
-use crate::newton::{self, Convergence, Evaluation, Tolerance};
+use crate::newton::{self, Convergence, Evaluation, Tolerance, gradients};
 use crate::{Balance, Ground, Model, Motion};
 use nalgebra::{SMatrix, SVector, Vector3};
 use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist};
@@ -28,8 +28,6 @@ pub struct Stage<'a> {
     pub per_second: f64,
     /// Slip velocity ε below which a track sticks, m/s.
     pub creep: f64,
-    /// Residual over the weight that counts as balance.
-    pub tolerance: Tolerance,
 }
 
 /// Start of a solve.
@@ -41,6 +39,8 @@ pub struct Start {
     pub traction: PerSide<f64>,
     /// What is known of the Jacobian at that motion.
     pub known: Known,
+    /// Residual over the weight that counts as balance.
+    pub tolerance: Tolerance,
 }
 
 /// A solved balance.
@@ -124,7 +124,7 @@ impl Stage<'_> {
                 [departure[0], departure[1], departure[2], traction.left, traction.right];
             SVector::<f64, N>::from_fn(|row, _| unknowns[row])
         };
-        let tolerance = self.tolerance;
+        let tolerance = start.tolerance;
         let residual = |z: SVector<f64, N>| SVector::from(self.residual::<f64, N>(z.into()));
         let near = known.and_then(|known| {
             let (start, known) = (at(follows), known.after(self.per_second)?);
@@ -166,14 +166,15 @@ impl Stage<'_> {
         if self.per_second == 0.0 {
             return SMatrix::zeros();
         }
-        let base = Dual::<3>::variables(self.base.to_array());
-        let by_base = self.residual_from(z.map(Dual::from), &base);
-        let by_base: SMatrix<f64, N, 3> =
-            SMatrix::from_fn(|row, column| by_base[row].gradient[column]);
-        let twist = self.motion(&Dual::<N>::variables(z)).twist.to_array();
-        let twist: SMatrix<f64, 3, N> = SMatrix::from_fn(|row, column| twist[row].gradient[column]);
+        let twist = gradients(&self.motion(&Dual::<N>::variables(z)).twist.to_array());
         // u̇ = (u − u_b)/(γ h): ∂r/∂u̇ = −γ h ∂r/∂u_b
-        by_base * twist * -self.per_second.recip()
+        self.by_base(z) * twist * -self.per_second.recip()
+    }
+
+    /// Derivative of the residual by the base twist u_b.
+    pub fn by_base<const N: usize>(&self, z: [f64; N]) -> SMatrix<f64, N, 3> {
+        let base = Dual::<3>::variables(self.base.to_array());
+        gradients(&self.residual_from(z.map(Dual::from), &base))
     }
 
     /// A turn with this difference of belt speeds (m/s), about a point a quarter of the contact
@@ -217,7 +218,7 @@ impl Stage<'_> {
 
     /// The residual, from a base twist u_b = (v_x, v_y, w).
     #[inline]
-    pub fn residual_from<S: Scalar, const N: usize>(&self, z: [S; N], base: &[S; 3]) -> [S; N] {
+    fn residual_from<S: Scalar, const N: usize>(&self, z: [S; N], base: &[S; 3]) -> [S; N] {
         let motion = self.motion_from(&z, base);
         let balance = gripping(self.model, self.ground, &motion, self.creep);
         let sum = balance.sum();
@@ -277,8 +278,7 @@ mod tests {
     use nalgebra::Matrix3;
 
     fn jacobian(stage: &Stage, z: [f64; 3]) -> Matrix3<f64> {
-        let rows = stage.residual(Dual::<3>::variables(z));
-        Matrix3::from_fn(|row, column| rows[row].gradient[column])
+        gradients(&stage.residual(Dual::<3>::variables(z)))
     }
 
     /// In one motion with one acceleration, by a short and by a long step.
@@ -289,13 +289,13 @@ mod tests {
         let effects = texts.iter().map(|text| text.parse::<ActiveEffect>().expect("an effect"));
         let model = &Model::new(VehicleFile::auriga_alpha().vehicle, effects.collect());
         let ground = &model.ground(&Circumstance::default());
-        let (driven, tolerance) = (PerSide::new(-0.2, 0.7), TOLERANCE);
+        let driven = PerSide::new(-0.2, 0.7);
         let twist = Twist { v_x: 0.02, v_y: 0.3, w: 0.9 };
         let rate = Twist { v_x: 0.4, v_y: -1.0, w: 2.0 };
         let z = [twist.v_x, twist.v_y - driven.left, twist.w];
         let [short, long] = LENGTHS.map(|per_second| {
             let base = twist - rate * per_second.recip();
-            Stage { model, ground, driven, base, per_second, creep: 1e-6, tolerance }
+            Stage { model, ground, driven, base, per_second, creep: 1e-6 }
         });
         let inverse = jacobian(&short, z).try_inverse().expect("regular");
         let known = Slopes { inverse, by_rate: short.by_rate(z), per_second: short.per_second };

@@ -15,8 +15,9 @@
 //! # Assumes
 //! Forces that do not depend on place, heading or time; equal gains and lags of the drive.
 
-use super::stage::{Stage, TOLERANCE, UNKNOWNS_WITH_SLIP, UNKNOWNS_WITHOUT_SLIP, gripping};
+use super::stage::{Stage, UNKNOWNS_WITH_SLIP, UNKNOWNS_WITHOUT_SLIP, gripping};
 use super::{GAMMA, Instant, Step, Transient, base_of_second};
+use crate::newton::Evaluation;
 use crate::{Circumstance, Ground, Model, Motion};
 use nalgebra::{SMatrix, SVector, Vector3};
 use trackdyn_core::{Dual, PerSide, Twist};
@@ -96,8 +97,7 @@ impl<'a> Along<'a> {
         let base = twist - rate * step;
         let per_second = if self.has_inertia { step.recip() } else { 0.0 };
         let Self { model, ref ground, creep, .. } = *self;
-        let tolerance = TOLERANCE;
-        let stage = Stage { model, ground, driven, base, per_second, creep, tolerance };
+        let stage = Stage { model, ground, driven, base, per_second, creep };
         let departure = Twist { v_y: twist.v_y - belt_speed.left, ..twist };
         // Tractions are unknowns only where belts slip on their sprockets.
         let traction = if N == UNKNOWNS_WITH_SLIP {
@@ -107,18 +107,9 @@ impl<'a> Along<'a> {
         };
         let unknowns = [departure.v_x, departure.v_y, departure.w, traction.left, traction.right];
         let at: [f64; N] = std::array::from_fn(|row| unknowns[row]);
-        let rows = stage.residual(Dual::<N>::variables(at));
-        let by_base =
-            stage.residual_from(at.map(Dual::<3>::from), &Dual::variables(base.to_array()));
-        let jacobian: SMatrix<f64, N, N> =
-            SMatrix::from_fn(|row, column| rows[row].gradient[column]);
-        Linear {
-            stage,
-            at,
-            residual: SVector::from(rows.map(|row| row.value)),
-            inverse: jacobian.try_inverse(),
-            by_base: SMatrix::from_fn(|row, column| by_base[row].gradient[column]),
-        }
+        let here = Evaluation::of_dual(stage.residual(Dual::<N>::variables(at)));
+        let (residual, inverse) = (here.residual, here.jacobian.try_inverse());
+        Linear { at, residual, inverse, by_base: stage.by_base(at), stage }
     }
 
     /// Traction of each side over its normal load at a motion, forward positive.

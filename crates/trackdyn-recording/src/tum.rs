@@ -117,9 +117,10 @@ fn poses(path: &Path) -> Result<Poses, Error> {
     Ok(Poses { poses: poses.into(), tilted: attitude.out_of_plane(), end })
 }
 
-/// What is expected where columns stand between commas: their order may be another, too.
-const BLANKS: &str =
-    "numbers with blanks between; a table with commas is read as .csv, by --columns";
+/// What is expected in place of commas and semicolons. Columns between these may have another
+/// order, so they are not read as if there were blanks.
+const BLANKS: &str = "numbers with decimal points and blanks between; other tables are read as \
+                      .csv, by --columns";
 
 /// Fewest poses above a line that is left out as unfinished.
 const MIN_POSES: usize = 10;
@@ -134,6 +135,11 @@ fn is_cut_off(text: &[u8], reader: &mut impl BufRead, poses: usize) -> bool {
 fn is_of_names(row: &[u8]) -> bool {
     let words = || row.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
     words().count() == COLUMNS.len() && words().all(|word| number(word).is_none())
+}
+
+/// Whether a word has a comma or a semicolon.
+fn separates(word: &[u8]) -> bool {
+    word.iter().any(|byte| b",;".contains(byte))
 }
 
 fn parse_row(
@@ -152,7 +158,7 @@ fn parse_row(
                 column: found + 1,
                 name: COLUMNS[found].to_owned(),
                 value: String::from_utf8_lossy(word).into_owned(),
-                expected: if word.contains(&b',') { BLANKS } else { "a number" },
+                expected: if separates(word) { BLANKS } else { "a number" },
             })?;
         }
         found += 1;
@@ -198,9 +204,11 @@ mod tests {
             assert_eq!(poses.len(), 40);
             assert!((poses[39].pose.x - 3.9).abs() < 1e-12, "{:?}", poses[39]);
         }
-        let (_, recording) = drive("0.0,0,0,0,0,0,0,1\n");
-        let error = recording.expect_err("commas").to_string();
-        assert!(error.contains("walk.tum:1:1") && error.contains("--columns"), "{error}");
+        for row in ["0.0,0,0,0,0,0,0,1\n", "0.0;0;0;0;0;0;0;1\n", "0.0, 0, 0, 0, 0, 0, 0, 1\n"] {
+            let (_, recording) = drive(row);
+            let error = recording.expect_err(row).to_string();
+            assert!(error.contains("walk.tum:1:1") && error.contains("--columns"), "{error}");
+        }
         for header in ["t x y\n", "t x y z qx qy qz qw\nt x y z qx qy qz qw\n"] {
             let (_, recording) = drive(header);
             assert!(recording.is_err_and(|error| error.to_string().contains("walk.tum:")));
